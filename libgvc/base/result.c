@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: MIT */
+/** @file result.c  Reporting failures. */
+#include "base/result.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+#define STRINGIZE(x) #x
+#define VERSION_TEXT(major, minor, patch) STRINGIZE(major) "." STRINGIZE(minor) "." STRINGIZE(patch)
+
+const char *gvc_version(void) {
+    return VERSION_TEXT(GVC_VERSION_MAJOR, GVC_VERSION_MINOR, GVC_VERSION_PATCH);
+}
+
+const char *gvc_result_string(gvc_result result) {
+    switch (result) {
+    case GVC_OK:
+        return "ok";
+    case GVC_ERROR_ARGUMENT:
+        return "bad argument";
+    case GVC_ERROR_MEMORY:
+        return "out of memory";
+    case GVC_ERROR_IO:
+        return "input/output error";
+    case GVC_ERROR_CANCELLED:
+        return "cancelled";
+    case GVC_ERROR_CORRUPT:
+        return "corrupt file";
+    case GVC_ERROR_TRUNCATED:
+        return "truncated file";
+    case GVC_ERROR_UNSUPPORTED:
+        return "unsupported";
+    case GVC_ERROR_LIMIT:
+        return "limit exceeded";
+    case GVC_ERROR_MESH:
+        return "unsuitable mesh";
+    case GVC_ERROR_QUALITY:
+        return "quality out of reach";
+    case GVC_ERROR_INTERNAL:
+        return "internal error";
+    }
+    return "unknown result";
+}
+
+void gvc_error_init(gvc_error *error) {
+    if (!error) return;
+    *error = (gvc_error){.code = GVC_OK, .frame = GVC_NO_FRAME, .offset = GVC_NO_OFFSET};
+}
+
+gvc_result gvc_fail(gvc_error *error, gvc_result code, const char *format, ...) {
+    if (error) {
+        gvc_error_init(error);
+        error->code = code;
+        va_list arguments;
+        va_start(arguments, format);
+        vsnprintf(error->message, sizeof error->message, format, arguments);
+        va_end(arguments);
+    }
+    return code;
+}
+
+gvc_result gvc_fail_memory(gvc_error *error) {
+    return gvc_fail(error, GVC_ERROR_MEMORY, "out of memory");
+}
+
+gvc_result gvc_at_frame(gvc_error *error, gvc_result result, int64_t frame) {
+    if (result != GVC_OK && error && error->frame == GVC_NO_FRAME) error->frame = frame;
+    return result;
+}

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: MIT */
+/** @file result.h  Reporting failures: every layer returns gvc_result and fills a gvc_error. */
+#ifndef GVC_BASE_RESULT_H
+#define GVC_BASE_RESULT_H
+
+#include "gvc/gvc.h"
+
+/** Fills `error` (may be NULL) with code and printf-style message, frame and offset unknown, and
+ *  returns `code`. Usage: `return gvc_fail(error, GVC_ERROR_MESH, "...")`. */
+gvc_result gvc_fail(gvc_error *error, gvc_result code, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/** The usual out-of-memory failure. */
+gvc_result gvc_fail_memory(gvc_error *error);
+
+/** Adds the frame to an error unless one is there already; returns `result`, so it can wrap a call.
+ */
+gvc_result gvc_at_frame(gvc_error *error, gvc_result result, int64_t frame);
+
+/** Returns early with a failed result; use only where nothing has to be freed. */
+#define GVC_TRY(expression)                                                                        \
+    do {                                                                                           \
+        gvc_result gvc_try_result_ = (expression);                                                 \
+        if (gvc_try_result_ != GVC_OK) return gvc_try_result_;                                     \
+    } while (0)
+
+/** Jumps to `cleanup` with the failed result in the variable `result`. */
+#define GVC_CHECK(expression)                                                                      \
+    do {                                                                                           \
+        result = (expression);                                                                     \
+        if (result != GVC_OK) goto cleanup;                                                        \
+    } while (0)
+
+#endif

@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file shape_record.h
+ * The shape record: one sample of the shape track per frame. It holds the list of the frame's
+ * charts (where each lies in the picture, its affine map, its cut graph and side table, its genus)
+ * and the digest of what must come out. A record may say "as in the frame before" for everything
+ * but the digest; the first of a fragment may not.
+ */
+#ifndef GVC_CONTAINER_SHAPE_RECORD_H
+#define GVC_CONTAINER_SHAPE_RECORD_H
+
+#include "base/bytes.h"
+#include "chart/side_table.h"
+
+typedef struct gvc_shape_node {
+    uint8_t kind;     /**< 0 root, 1 extremum, 2 junction */
+    uint32_t feature; /**< extremum number; 0 otherwise */
+} gvc_shape_node;
+
+typedef struct gvc_shape_edge {
+    uint32_t node[2]; /**< from, to; edge number = index = edge of the side table */
+} gvc_shape_edge;
+
+typedef struct gvc_chart_shape {
+    uint32_t component; /**< charts of one component share a number; 0-based */
+    uint32_t x, y;      /**< top left sample in a plane */
+    uint32_t genus;
+    double origin[3], step; /**< position = origin + step * code (16-bit code) */
+    size_t node_count, edge_count;
+    gvc_shape_node *node;
+    gvc_shape_edge *edge;
+    gvc_side_table sides; /**< size, start, steps, sides */
+} gvc_chart_shape;
+
+typedef struct gvc_shape {
+    uint64_t segment;   /**< number of the segment, 0-based */
+    size_t chart_count; /**< >= 1 */
+    gvc_chart_shape *chart;
+} gvc_shape;
+
+/** What changes with every frame. */
+typedef struct gvc_shape_frame {
+    bool same;         /**< charts as in the frame before */
+    uint8_t digest[8]; /**< over the digests of all charts: see spec */
+    char source[64];   /**< UTF-8 name of the original frame, may be empty */
+} gvc_shape_frame;
+
+void gvc_shape_free(gvc_shape *shape);
+gvc_result gvc_shape_copy(const gvc_shape *from, gvc_shape *to, gvc_error *error);
+/** True if both describe the same charts to the bit. */
+bool gvc_shape_equal(const gvc_shape *a, const gvc_shape *b);
+
+/** Appends one record. With `frame->same`, `shape` is not looked at. Compressed with zstd where
+ * that is smaller. */
+gvc_result gvc_shape_record_write(const gvc_shape *shape, const gvc_shape_frame *frame,
+                                  gvc_buffer *buffer, gvc_error *error);
+
+/** Parses one record of untrusted bytes. `max_memory` bounds the decompressed size. If the record
+ * says "same", `shape` stays empty. Checks ranges: counts against bytes left, sizes 16..2049, node
+ * and feature numbers, chart rectangles inside the plane and disjoint, finite origin, step > 0 and
+ * finite, node_count - edge_count == 1 - 2 * genus, and that each side table passes
+ * gvc_weld_build's rules with the genus declared, and that walking the sides meets the nodes the
+ * edges name. */
+gvc_result gvc_shape_record_read(const uint8_t *data, size_t size, uint32_t plane_width,
+                                 uint32_t plane_height, size_t max_memory, gvc_shape *shape,
+                                 gvc_shape_frame *frame, gvc_error *error);
+
+#endif

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file writer.h
+ * Writes a `.gvc` file front to back: ftyp, moov, one moof + mdat per group of frames, mfra. Never
+ * seeks.
+ */
+#ifndef GVC_CONTAINER_WRITER_H
+#define GVC_CONTAINER_WRITER_H
+
+#include "container/config.h"
+
+typedef struct gvc_writer gvc_writer;
+
+/** One sample in decoding order. */
+typedef struct gvc_sample {
+    const uint8_t *data;
+    size_t size;
+    int32_t composition_offset; /**< presentation minus decoding time, in frames (version 1 trun,
+                                   signed) */
+    bool sync;
+} gvc_sample;
+
+/** One fragment: a group of frames. Both tracks have one sample per frame. */
+typedef struct gvc_fragment {
+    uint64_t first_frame; /**< decoding time of the first sample, in frames */
+    size_t frame_count;
+    const gvc_sample *geometry; /**< in decoding order */
+    const gvc_sample *shape;    /**< in presentation order */
+} gvc_fragment;
+
+/** Writes ftyp and moov at once. `avc_config` is the content of avcC. */
+gvc_result gvc_writer_create(const gvc_sink *sink, const gvc_config *config,
+                             const uint8_t *avc_config, size_t avc_config_size, gvc_writer **writer,
+                             gvc_error *error);
+gvc_result gvc_writer_fragment(gvc_writer *writer, const gvc_fragment *fragment, gvc_error *error);
+/** Writes the index (mfra). */
+gvc_result gvc_writer_finish(gvc_writer *writer, gvc_error *error);
+uint64_t gvc_writer_byte_count(const gvc_writer *writer);
+void gvc_writer_destroy(gvc_writer **writer);
+
+#endif

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT */
+/** @file features.h  All that is found on one frame by itself, so that frames can be analysed in
+ *  parallel: mu, root, candidate extrema. */
+#ifndef GVC_DESCRIPTOR_FEATURES_H
+#define GVC_DESCRIPTOR_FEATURES_H
+
+#include "descriptor/reeb.h"
+
+typedef struct gvc_features {
+    double diagonal;        /**< of the bounding box */
+    double area;            /**< of the surface */
+    double geodesic_scale;  /**< greatest geodesic distance met; divides every g (Def. 2) */
+    uint32_t root;          /**< vertex of least mu */
+    double *mu;             /**< per vertex, normalised to [0,1] */
+    gvc_extremum *extremum; /**< candidates, most persistent first */
+    size_t extremum_count;
+} gvc_features;
+
+typedef struct gvc_features_options {
+    size_t integral_samples;      /**< default 100 */
+    double candidate_persistence; /**< candidates below this are not listed; default 0.01 */
+} gvc_features_options;
+
+gvc_result gvc_features_find(const gvc_halfedges *mesh, const gvc_features_options *options,
+                             gvc_features *features, gvc_error *error);
+void gvc_features_free(gvc_features *features);
+
+#endif

@@ -1,0 +1,295 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file gvc.h
+ * Public interface of libgvc, the reference implementation of the `.gvc` file: 3D video (a triangle
+ * mesh per frame) coded as one H.264 video of geometry images.
+ *
+ * Conventions
+ *  - Every function that can fail returns a `gvc_result` and takes a `gvc_error *` as its last
+ *    argument, which may be NULL. On failure it holds the code, a sentence for a person, and where
+ * it happened; on success it is untouched.
+ *  - On failure no object is handed out: output pointers are set to NULL.
+ *  - There is no global state. An opened `gvc_reader` is immutable and may be shared by threads; a
+ *    `gvc_decoder` belongs to one thread at a time; meshes are plain data.
+ *  - Option structs begin with their own size; always start from their `_init` function.
+ */
+#ifndef GVC_GVC_H
+#define GVC_GVC_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(GVC_STATIC)
+#define GVC_API
+#else
+#define GVC_API __attribute__((visibility("default")))
+#endif
+#define GVC_NODISCARD __attribute__((warn_unused_result))
+
+/** Version of the library (not of the file format, which gvc_info.format_version tells). */
+#define GVC_VERSION_MAJOR 0
+#define GVC_VERSION_MINOR 1
+#define GVC_VERSION_PATCH 0
+
+/** "major.minor.patch" of the library in use. */
+GVC_API const char *gvc_version(void);
+
+/* ------------------------------------------------------------------------------------- results */
+
+/** Result codes. Numbers never change meaning; gaps are left for later ones. */
+typedef enum gvc_result {
+    GVC_OK = 0,
+    GVC_ERROR_ARGUMENT = 1,   /**< the caller broke this interface's contract */
+    GVC_ERROR_MEMORY = 2,     /**< an allocation failed */
+    GVC_ERROR_IO = 3,         /**< reading or writing failed (missing file, full disk, ...) */
+    GVC_ERROR_CANCELLED = 4,  /**< a callback asked to stop */
+    GVC_ERROR_CORRUPT = 10,   /**< the bytes break the format */
+    GVC_ERROR_TRUNCATED = 11, /**< the bytes end before they should */
+    GVC_ERROR_UNSUPPORTED =
+        12,               /**< well-formed, but a feature or version this build does not know */
+    GVC_ERROR_LIMIT = 13, /**< well-formed, but beyond a limit the caller set */
+    GVC_ERROR_MESH = 20,  /**< an input mesh that cannot be coded (open, non-manifold, NaN, ...) */
+    GVC_ERROR_QUALITY = 21, /**< the geometric error asked for cannot be reached */
+    GVC_ERROR_INTERNAL = 99 /**< a bug in this library */
+} gvc_result;
+
+/** Short English name of a result, never NULL. */
+GVC_API const char *gvc_result_string(gvc_result result);
+
+#define GVC_NO_FRAME (-1)
+#define GVC_NO_OFFSET UINT64_MAX
+
+/** What went wrong and where. Plain data; may be copied. Always initialise with gvc_error_init. */
+typedef struct gvc_error {
+    gvc_result code;
+    int64_t frame;   /**< zero-based frame, or GVC_NO_FRAME */
+    uint64_t offset; /**< byte offset in the file being read, or GVC_NO_OFFSET */
+    char where[96]; /**< box path in a .gvc file ("moof/traf/trun"), or a file name; may be empty */
+    char message[320]; /**< one sentence without a final full stop */
+} gvc_error;
+
+GVC_API void gvc_error_init(gvc_error *error);
+
+/* -------------------------------------------------------------------------------------- meshes */
+
+/** A triangle mesh: V positions and F index triples. Owned by whoever received it. */
+typedef struct gvc_mesh gvc_mesh;
+
+/** Copies `3 * vertex_count` coordinates and `3 * face_count` indices into a new mesh.
+ *  GVC_ERROR_MESH for an index out of range or a coordinate that is not finite. */
+GVC_API GVC_NODISCARD gvc_result gvc_mesh_create(const double *positions, size_t vertex_count,
+                                                 const uint32_t *faces, size_t face_count,
+                                                 gvc_mesh **mesh, gvc_error *error);
+/** Frees the mesh and nulls the caller's pointer. NULL and pointer to NULL are fine. */
+GVC_API void gvc_mesh_destroy(gvc_mesh **mesh);
+GVC_API size_t gvc_mesh_vertex_count(const gvc_mesh *mesh);
+GVC_API size_t gvc_mesh_face_count(const gvc_mesh *mesh);
+/** 3 * V coordinates, valid as long as the mesh. Decoded meshes hold exact float32 values. */
+GVC_API const double *gvc_mesh_positions(const gvc_mesh *mesh);
+/** 3 * F vertex indices, counter-clockwise seen from outside, valid as long as the mesh. */
+GVC_API const uint32_t *gvc_mesh_faces(const gvc_mesh *mesh);
+
+typedef enum gvc_mesh_format {
+    GVC_MESH_AUTO = 0, /**< by file name when writing, by content and name when reading */
+    GVC_MESH_OFF = 1,
+    GVC_MESH_OBJ = 2,
+    GVC_MESH_PLY = 3,           /**< binary little-endian when writing */
+    GVC_MESH_PLY_ASCII = 4,     /**< writing only */
+    GVC_MESH_PLY_BIG_ENDIAN = 5 /**< writing only */
+} gvc_mesh_format;
+
+/** Reads a mesh file; "-" is standard input (then `format` says what it is, or content does).
+ *  Polygons are fanned. GVC_ERROR_IO if it cannot be read; GVC_ERROR_MESH, with line or offset in
+ * the message, if it is not a mesh. */
+GVC_API GVC_NODISCARD gvc_result gvc_mesh_read_file(const char *path, gvc_mesh_format format,
+                                                    gvc_mesh **mesh, gvc_error *error);
+/** The same from memory; `name` is used in messages only. */
+GVC_API GVC_NODISCARD gvc_result gvc_mesh_read_memory(const void *data, size_t size,
+                                                      gvc_mesh_format format, const char *name,
+                                                      gvc_mesh **mesh, gvc_error *error);
+/** Writes to a temporary name beside `path` and renames it when whole ("-": standard output).
+ *  An existing file is replaced only if `overwrite`. */
+GVC_API GVC_NODISCARD gvc_result gvc_mesh_write_file(const gvc_mesh *mesh, const char *path,
+                                                     gvc_mesh_format format, bool overwrite,
+                                                     gvc_error *error);
+
+/** Topology of a mesh. Counts are of the mesh as given. */
+typedef struct gvc_topology {
+    uint64_t vertex_count, face_count, edge_count;
+    uint64_t component_count;     /**< edge-connected components of faces */
+    uint64_t boundary_edge_count; /**< edges with one face */
+    uint64_t boundary_loop_count;
+    uint64_t nonmanifold_edge_count;   /**< edges with more than two faces */
+    uint64_t nonmanifold_vertex_count; /**< vertices whose faces form more than one fan */
+    uint64_t misoriented_edge_count;   /**< edges whose two faces run the same way */
+    uint64_t degenerate_face_count;    /**< faces that repeat a vertex */
+    uint64_t duplicate_face_count;     /**< faces with the same three vertices as an earlier one */
+    uint64_t unreferenced_vertex_count;
+    int64_t genus;        /**< sum over components if closed, manifold and oriented, else -1 */
+    bool closed_manifold; /**< closed, manifold and oriented */
+} gvc_topology;
+
+GVC_API GVC_NODISCARD gvc_result gvc_mesh_topology(const gvc_mesh *mesh, gvc_topology *topology,
+                                                   gvc_error *error);
+
+/** Distance between two surfaces, in the unit of the meshes. Each direction takes area-weighted
+ *  samples of one surface, and all its vertices for the maximum, to the other surface. */
+typedef struct gvc_distance {
+    double mean[2], rms[2], maximum[2]; /**< [0] first to second, [1] second to first */
+    double diagonal;                    /**< of the first mesh's bounding box */
+} gvc_distance;
+
+/** `samples` per direction (0: 20,000). Deterministic. */
+GVC_API GVC_NODISCARD gvc_result gvc_mesh_distance(const gvc_mesh *first, const gvc_mesh *second,
+                                                   size_t samples, gvc_distance *distance,
+                                                   gvc_error *error);
+
+/* ------------------------------------------------------------------------------------ encoding */
+
+/** Where frames come from. The encoder reads frames more than once and from several threads at a
+ *  time, so `read` must be thread-safe and give the same mesh each time. */
+typedef struct gvc_source {
+    void *user;
+    uint64_t frame_count;
+    /** Gives a new mesh, which the encoder destroys. */
+    gvc_result (*read)(void *user, uint64_t frame, gvc_mesh **mesh, gvc_error *error);
+    /** Name of a frame for messages and for the file's record of sources; may be NULL. */
+    const char *(*name)(void *user, uint64_t frame);
+} gvc_source;
+
+/** Where the file goes: bytes strictly in order, never rewritten. */
+typedef struct gvc_sink {
+    void *user;
+    gvc_result (*write)(void *user, const void *data, size_t size, gvc_error *error);
+} gvc_sink;
+
+typedef enum gvc_stage { GVC_STAGE_SCAN = 0, GVC_STAGE_ENCODE = 1 } gvc_stage;
+
+typedef struct gvc_encode_options {
+    size_t struct_size;
+    uint32_t
+        image_size; /**< samples per side of a geometry image, 16..2049; 0: chosen for max_rms */
+    double max_rms; /**< RMS error to hold in every group of frames, as a fraction of the frame's
+                         bounding-box diagonal (default 1e-3); ignored if crf is given */
+    double max_rms_length; /**< > 0: the same as a length in the meshes' unit, instead of max_rms */
+    double crf;   /**< x264's rate factor at 10 bits, -12..51; NaN (default): from max_rms */
+    uint32_t gop; /**< frames per group (random access unit); default 60 */
+    uint32_t frame_rate_num, frame_rate_den; /**< default 30/1 */
+    uint32_t threads;                        /**< 0: one per processor. Never changes the output */
+    char unit[16];                           /**< "m", "mm", or empty for unknown; recorded only */
+    bool weld; /**< weld exactly equal positions where that gives a manifold; default true */
+    double persistence;  /**< least persistence of an extremum, of the range of mu; default 0.2 */
+    double prior_weight; /**< strength of the temporal prior of the cut (Eq. 8); default 1 */
+    double curvature_weight; /**< exponent of the curvature metric; NaN: by rate; 0: none */
+    /** Called from the calling thread; return false to cancel. May be NULL. */
+    bool (*progress)(void *user, gvc_stage stage, uint64_t done, uint64_t total);
+    /** Warnings, one line without newline; frame or GVC_NO_FRAME. May be NULL. */
+    void (*warn)(void *user, int64_t frame, const char *message);
+    void *user;
+} gvc_encode_options;
+
+GVC_API void gvc_encode_options_init(gvc_encode_options *options);
+
+/** What an encode did. */
+typedef struct gvc_encode_report {
+    uint64_t frame_count, segment_count, gop_count, byte_count;
+    uint32_t image_size;
+    double worst_rms; /**< greatest measured RMS of a group, fraction of the diagonal */
+    double mean_crf;
+} gvc_encode_report;
+
+/** Encodes all frames of `source` into `sink`. `report` may be NULL. Not in decoder-only builds,
+ * where it gives GVC_ERROR_UNSUPPORTED. */
+GVC_API GVC_NODISCARD gvc_result gvc_encode(const gvc_source *source, const gvc_sink *sink,
+                                            const gvc_encode_options *options,
+                                            gvc_encode_report *report, gvc_error *error);
+
+/* ------------------------------------------------------------------------------------ decoding */
+
+typedef struct gvc_reader gvc_reader;   /**< an opened file: parsed, immutable, shareable */
+typedef struct gvc_decoder gvc_decoder; /**< decodes frames of one reader; one thread at a time */
+
+/** Random-access input. `read` fills exactly `size` bytes at `offset` or fails. Must be thread-safe
+ *  if the reader is shared. */
+typedef struct gvc_io {
+    void *user;
+    uint64_t size;
+    gvc_result (*read)(void *user, uint64_t offset, void *data, size_t size, gvc_error *error);
+} gvc_io;
+
+typedef struct gvc_read_options {
+    size_t struct_size;
+    uint64_t max_memory;     /**< bytes any one decode may hold; default 1 GiB */
+    uint32_t max_image_size; /**< samples per side; default 2049 */
+    uint64_t max_frames;     /**< default 10,000,000 */
+    bool keep_going; /**< accept a damaged or cut-off file and index every whole fragment of it */
+} gvc_read_options;
+
+GVC_API void gvc_read_options_init(gvc_read_options *options);
+
+/** `options` may be NULL for defaults. The file stays open until gvc_reader_close. */
+GVC_API GVC_NODISCARD gvc_result gvc_reader_open_file(const char *path,
+                                                      const gvc_read_options *options,
+                                                      gvc_reader **reader, gvc_error *error);
+/** `data` is borrowed and must outlive the reader. */
+GVC_API GVC_NODISCARD gvc_result gvc_reader_open_memory(const void *data, size_t size,
+                                                        const gvc_read_options *options,
+                                                        gvc_reader **reader, gvc_error *error);
+GVC_API GVC_NODISCARD gvc_result gvc_reader_open_io(const gvc_io *io,
+                                                    const gvc_read_options *options,
+                                                    gvc_reader **reader, gvc_error *error);
+/** Frees the reader and nulls the pointer. Decoders made from it must be closed before. */
+GVC_API void gvc_reader_close(gvc_reader **reader);
+
+typedef struct gvc_info {
+    uint16_t format_version_major, format_version_minor;
+    uint64_t frame_count;    /**< frames present (whole) */
+    uint64_t declared_count; /**< frames the file says it should have; 0 if unknown */
+    uint64_t byte_count;
+    uint32_t image_size;
+    uint32_t picture_width, picture_height;
+    uint32_t frame_rate_num, frame_rate_den;
+    uint64_t gop_count;
+    uint64_t damage_count; /**< damaged places found while opening with keep_going */
+    char unit[16];
+    char encoder[64]; /**< program that wrote the file */
+} gvc_info;
+
+GVC_API void gvc_reader_info(const gvc_reader *reader, gvc_info *info);
+
+/** Facts about one frame, without decoding its picture. */
+typedef struct gvc_frame_info {
+    uint64_t byte_count; /**< of all its samples */
+    uint64_t segment;    /**< index of its segment */
+    uint32_t chart_count;
+    uint32_t genus;          /**< summed over charts */
+    uint32_t extremum_count; /**< nodes of the cut graph that are extrema */
+    uint32_t node_count, edge_count;
+    bool keyframe;     /**< starts a group of frames */
+    char source[64];   /**< name of the original frame, may be empty */
+    uint8_t digest[8]; /**< of the decoded codes and faces */
+} gvc_frame_info;
+
+GVC_API GVC_NODISCARD gvc_result gvc_reader_frame_info(const gvc_reader *reader, uint64_t frame,
+                                                       gvc_frame_info *info, gvc_error *error);
+
+GVC_API GVC_NODISCARD gvc_result gvc_decoder_create(const gvc_reader *reader, gvc_decoder **decoder,
+                                                    gvc_error *error);
+/** Frees the decoder and nulls the pointer. */
+GVC_API void gvc_decoder_destroy(gvc_decoder **decoder);
+
+/** Decodes one frame in any order (in order is fastest) to a closed mesh, which the caller
+ * destroys. The checksums of all samples used and the frame's digest are verified. After a failure
+ * the decoder can be used for other frames. */
+GVC_API GVC_NODISCARD gvc_result gvc_decoder_frame(gvc_decoder *decoder, uint64_t frame,
+                                                   gvc_mesh **mesh, gvc_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
