@@ -1,0 +1,381 @@
+/* SPDX-License-Identifier: MIT */
+/** @file text.c  Numbers as text, independent of the locale, exact in both directions. */
+#include "base/text.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#ifdef __SIZEOF_INT128__
+__extension__ typedef unsigned __int128 wide;
+#define HAVE_WIDE 1
+#endif
+
+static const uint64_t power_of_ten[20] = {1ULL,
+                                          10ULL,
+                                          100ULL,
+                                          1000ULL,
+                                          10000ULL,
+                                          100000ULL,
+                                          1000000ULL,
+                                          10000000ULL,
+                                          100000000ULL,
+                                          1000000000ULL,
+                                          10000000000ULL,
+                                          100000000000ULL,
+                                          1000000000000ULL,
+                                          10000000000000ULL,
+                                          100000000000000ULL,
+                                          1000000000000000ULL,
+                                          10000000000000000ULL,
+                                          100000000000000000ULL,
+                                          1000000000000000000ULL,
+                                          10000000000000000000ULL};
+
+/** Powers of ten that a double holds exactly. */
+static const double exact_power[23] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                       1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                       1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+
+/* ------------------------------------------------------------------------------------- parsing */
+
+static bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/** A decimal number as written: mantissa * 10^exponent, where `mantissa` holds the first 19
+ *  significant digits and `digits` counts all of them. */
+typedef struct decimal {
+    const char *first, *last; /**< text of the mantissa, with its point */
+    uint64_t mantissa;
+    int64_t digits;
+    int64_t exponent; /**< of the whole mantissa as an integer, all digits included */
+} decimal;
+
+static const char *scan_mantissa(const char *p, const char *end, decimal *number) {
+    bool point = false, any = false;
+    number->first = p;
+    for (; p < end; p++) {
+        if (*p == '.' && !point) {
+            point = true;
+            continue;
+        }
+        if (!is_digit(*p)) break;
+        any = true;
+        number->exponent -= point;
+        if (number->digits == 0 && *p == '0') continue; /* leading zeros are not significant */
+        if (number->digits < 19) number->mantissa = number->mantissa * 10 + (uint64_t)(*p - '0');
+        number->digits++;
+    }
+    number->last = p;
+    return any ? p : NULL;
+}
+
+/** An exponent that is not followed by digits is left alone: it is not part of the number. */
+static const char *scan_exponent(const char *p, const char *end, decimal *number) {
+    const char *q = p;
+    if (q == end || (*q != 'e' && *q != 'E')) return p;
+    q++;
+    bool negative = q < end && *q == '-';
+    if (q < end && (*q == '-' || *q == '+')) q++;
+    if (q == end || !is_digit(*q)) return p;
+    int64_t value = 0;
+    for (; q < end && is_digit(*q); q++) {
+        if (value < INT64_C(1000000000000000)) value = value * 10 + (*q - '0');
+    }
+    number->exponent += negative ? -value : value;
+    return q;
+}
+
+#ifdef HAVE_WIDE
+/** Powers of five below 2^63. */
+static uint64_t power_of_five(unsigned n) {
+    uint64_t power = 1;
+    while (n--) power *= 5;
+    return power;
+}
+
+/** value * 2^exponent rounded to the nearest double, ties to even. `value` must have at least 54
+ *  bits or `inexact` be false; `inexact` says that the true value is a little greater. */
+static double round_wide(wide value, bool inexact, int exponent) {
+    uint64_t high = (uint64_t)(value >> 64);
+    int bits = high ? 128 - __builtin_clzll(high) : 64 - __builtin_clzll((uint64_t)value);
+    int shift = bits - DBL_MANT_DIG;
+    if (shift <= 0) return ldexp((double)(uint64_t)value, exponent);
+    uint64_t kept = (uint64_t)(value >> shift);
+    wide rest = value & (((wide)1 << shift) - 1), half = (wide)1 << (shift - 1);
+    if (rest > half || (rest == half && (inexact || (kept & 1)))) kept++;
+    return ldexp((double)kept, exponent + shift);
+}
+
+/** Exact for every mantissa and |exponent| <= 27, where 10^n = 5^n 2^n and 5^n < 2^63; results are
+ *  far from the subnormal range. */
+static double scale_wide(uint64_t mantissa, int exponent) {
+    if (exponent >= 0)
+        return round_wide((wide)mantissa * power_of_five((unsigned)exponent), false, exponent);
+    int lead = __builtin_clzll(mantissa);
+    uint64_t divisor = power_of_five((unsigned)-exponent);
+    wide numerator = (wide)(mantissa << lead) << 64; /* the quotient then has more than 63 bits */
+    return round_wide(numerator / divisor, numerator % divisor != 0, exponent - lead - 64);
+}
+#endif
+
+/** The C library, given digits and exponent without a decimal point, which the locale could change.
+ *  A decimal that is exactly half-way between doubles has at most 767 digits, so later digits only
+ *  matter as being zero or not. */
+static double convert_slowly(const decimal *number) {
+    enum { KEPT = 768 };
+    char text[KEPT + 32];
+    size_t length = 0;
+    bool more = false;
+    for (const char *p = number->first; p < number->last; p++) {
+        if (!is_digit(*p) || (length == 0 && *p == '0')) continue;
+        if (length < KEPT)
+            text[length++] = *p;
+        else
+            more |= *p != '0';
+    }
+    int64_t exponent = number->exponent + (number->digits - (int64_t)length);
+    if (more) {
+        text[length++] = '1';
+        exponent--;
+    }
+    const int64_t limit = 10000; /* beyond it every double is 0 or infinite anyway */
+    if (exponent > limit) exponent = limit;
+    if (exponent < -limit) exponent = -limit;
+    text[length++] = 'e';
+    if (exponent < 0) text[length++] = '-';
+    gvc_format_uint(text + length, (uint64_t)(exponent < 0 ? -exponent : exponent));
+    return strtod(text, NULL);
+}
+
+static double convert(const decimal *number) {
+    if (number->mantissa == 0) return 0;
+    if (number->digits <= 19) {
+        /* Both operands exact, so the one operation rounds correctly (Clinger 1990). */
+        bool exact = number->mantissa <= (uint64_t)1 << DBL_MANT_DIG;
+        if (exact && number->exponent >= 0 && number->exponent <= 22)
+            return (double)number->mantissa * exact_power[number->exponent];
+        if (exact && number->exponent < 0 && number->exponent >= -22)
+            return (double)number->mantissa / exact_power[-number->exponent];
+#ifdef HAVE_WIDE
+        if (number->exponent >= -27 && number->exponent <= 27)
+            return scale_wide(number->mantissa, (int)number->exponent);
+#endif
+    }
+    return convert_slowly(number);
+}
+
+/** `word` is lower case. Returns the byte after it, or NULL. */
+static const char *skip_word(const char *p, const char *end, const char *word) {
+    for (; *word; word++, p++) {
+        if (p == end || (*p | 0x20) != *word) return NULL;
+    }
+    return p;
+}
+
+static const char *parse_special(const char *p, const char *end, double *value) {
+    const char *after = skip_word(p, end, "nan");
+    if (after) {
+        *value = NAN;
+        return after;
+    }
+    after = skip_word(p, end, "infinity");
+    if (!after) after = skip_word(p, end, "inf");
+    if (after) *value = INFINITY;
+    return after;
+}
+
+const char *gvc_parse_double(const char *text, const char *end, double *value) {
+    const char *p = text;
+    bool negative = p < end && *p == '-';
+    if (p < end && (*p == '-' || *p == '+')) p++;
+    decimal number = {0};
+    double magnitude;
+    const char *after = scan_mantissa(p, end, &number);
+    if (after) {
+        after = scan_exponent(after, end, &number);
+        magnitude = convert(&number);
+    } else {
+        after = parse_special(p, end, &magnitude);
+        if (!after) return NULL;
+    }
+    *value = negative ? -magnitude : magnitude;
+    return after;
+}
+
+const char *gvc_parse_int(const char *text, const char *end, int64_t *value) {
+    const char *p = text;
+    bool negative = p < end && *p == '-';
+    if (p < end && (*p == '-' || *p == '+')) p++;
+    if (p == end || !is_digit(*p)) return NULL;
+    const uint64_t limit = (uint64_t)INT64_MAX + negative;
+    uint64_t magnitude = 0;
+    for (; p < end && is_digit(*p); p++) {
+        uint64_t digit = (uint64_t)(*p - '0');
+        if (magnitude > (limit - digit) / 10) return NULL;
+        magnitude = magnitude * 10 + digit;
+    }
+    /* INT64_MIN has no positive counterpart to negate. */
+    if (negative && magnitude > (uint64_t)INT64_MAX)
+        *value = INT64_MIN;
+    else
+        *value = negative ? -(int64_t)magnitude : (int64_t)magnitude;
+    return p;
+}
+
+/* ---------------------------------------------------------------------------------- formatting */
+
+size_t gvc_format_uint(char *text, uint64_t value) {
+    char reversed[20];
+    size_t length = 0;
+    do {
+        reversed[length++] = (char)('0' + value % 10);
+        value /= 10;
+    } while (value);
+    for (size_t i = 0; i < length; i++) text[i] = reversed[length - 1 - i];
+    text[length] = 0;
+    return length;
+}
+
+/** Writes 0.d1d2d3... * 10^(exponent + 1) as printf's %.{precision}g would; `digits` has no
+ * trailing zeros that matter and 10^(count-1) <= digits < 10^count. */
+static size_t emit(char *text, bool negative, uint64_t digits, int count, int exponent,
+                   int precision) {
+    char figure[24], *p = text;
+    while (digits && digits % 10 == 0) {
+        digits /= 10;
+        count--;
+    }
+    gvc_format_uint(figure, digits);
+    if (negative) *p++ = '-';
+    bool scientific = exponent < -4 || exponent >= precision;
+    int whole = scientific ? 1 : exponent + 1; /* digits before the point */
+    if (whole <= 0) {
+        *p++ = '0';
+        *p++ = '.';
+        for (int i = whole; i < 0; i++) *p++ = '0';
+    }
+    for (int i = 0; i < count; i++) {
+        if (i == whole && i > 0) *p++ = '.';
+        *p++ = figure[i];
+    }
+    for (int i = count; i < whole; i++) *p++ = '0';
+    if (scientific) {
+        int magnitude = exponent < 0 ? -exponent : exponent;
+        *p++ = 'e';
+        *p++ = exponent < 0 ? '-' : '+';
+        if (magnitude < 10) *p++ = '0';
+        p += gvc_format_uint(p, (uint64_t)magnitude);
+    }
+    *p = 0;
+    return (size_t)(p - text);
+}
+
+/** Whether digits * 10^scale, read as a double or as a float, becomes `value`. A double half-way
+ *  between two floats is refused: the text may be on either side of it. */
+static bool gives_float(double read_back, float value) {
+    uint64_t bits;
+    memcpy(&bits, &read_back, sizeof bits);
+    const uint64_t dropped = (UINT64_C(1) << (DBL_MANT_DIG - FLT_MANT_DIG)) - 1;
+    bool half_way = (bits & dropped) == dropped / 2 + 1;
+    return (float)read_back == value && !half_way;
+}
+
+#ifdef HAVE_WIDE
+/** The common range of coordinates, 1e-6 <= value < 1e9, in integers. Returns 0 outside it. */
+static size_t format_float(char *text, float value) {
+    float magnitude = fabsf(value);
+    if (!(magnitude >= 1e-6f && magnitude < 1e9f)) return 0;
+    int exponent = 8;
+    while (exponent > 0 && magnitude < exact_power[exponent]) exponent--;
+    if (magnitude < 1) {
+        /* No float lies between a negative power of ten and the double nearest to it. */
+        exponent = -1;
+        while (magnitude < 1 / exact_power[-exponent]) exponent--;
+    }
+    int binary;
+    uint64_t mantissa = (uint64_t)ldexpf(frexpf(magnitude, &binary), FLT_MANT_DIG);
+    binary -= FLT_MANT_DIG; /* magnitude = mantissa * 2^binary */
+    for (int precision = 6; precision <= 9; precision++) {
+        /* digits = magnitude * 10^scale, rounded to nearest even as printf does */
+        int scale = precision - 1 - exponent;
+        wide numerator = mantissa, denominator = 1;
+        if (scale > 0) numerator *= power_of_ten[scale];
+        if (binary > 0) numerator <<= binary;
+        uint64_t digits;
+        wide rest;
+        if (scale >= 0 && binary <= 0) {
+            digits = (uint64_t)(numerator >> -binary);
+            denominator <<= -binary;
+            rest = numerator & (denominator - 1);
+        } else {
+            if (scale < 0) denominator *= power_of_ten[-scale];
+            if (binary < 0) denominator <<= -binary;
+            digits = (uint64_t)(numerator / denominator);
+            rest = numerator % denominator;
+        }
+        if (rest * 2 > denominator || (rest * 2 == denominator && (digits & 1))) digits++;
+        double read_back =
+            scale >= 0 ? (double)digits / exact_power[scale] : (double)digits * exact_power[-scale];
+        if (!gives_float(read_back, magnitude)) continue;
+        bool carried = digits == power_of_ten[precision];
+        if (carried) digits /= 10;
+        return emit(text, value < 0, digits, precision, exponent + carried, precision);
+    }
+    return 0;
+}
+#endif
+
+/** Digits and exponent of %.{precision-1}e, whatever the locale's decimal point is. */
+static uint64_t print_digits(double magnitude, int precision, int *exponent) {
+    char text[64];
+    snprintf(text, sizeof text, "%.*e", precision - 1, magnitude);
+    uint64_t digits = 0;
+    const char *p = text;
+    for (; *p && *p != 'e'; p++) {
+        if (is_digit(*p)) digits = digits * 10 + (uint64_t)(*p - '0');
+    }
+    int64_t parsed = 0;
+    if (*p) gvc_parse_int(p + 1, text + strlen(text), &parsed);
+    *exponent = (int)parsed;
+    return digits;
+}
+
+static size_t format_slowly(char *text, double value, bool is_float) {
+    double magnitude = fabs(value);
+    /* Fifteen digits always survive, so a double that fewer digits tell is also told by these, with
+     * zeros at the end. */
+    int first = is_float ? 6 : 15, last = is_float ? 9 : 17;
+    for (int precision = first;; precision++) {
+        int exponent;
+        uint64_t digits = print_digits(magnitude, precision, &exponent);
+        decimal number = {.mantissa = digits, .digits = precision};
+        char figure[24];
+        number.first = figure;
+        number.last = figure + gvc_format_uint(figure, digits);
+        number.exponent = exponent - (precision - 1);
+        double read_back = convert(&number);
+        bool same = is_float ? gives_float(read_back, (float)magnitude) : read_back == magnitude;
+        if (!same && precision < last) continue;
+        int needed = precision;
+        for (; !is_float && needed > 6 && digits % 10 == 0; needed--) digits /= 10;
+        return emit(text, value < 0, digits, needed, exponent, needed);
+    }
+}
+
+size_t gvc_format_double(char *text, double value) {
+    if (!isfinite(value) || value == 0) {
+        const char *word = isnan(value) ? "nan" : isinf(value) ? "inf" : "0";
+        bool minus = !isnan(value) && signbit(value);
+        if (minus) text[0] = '-';
+        strcpy(text + minus, word);
+        return strlen(text);
+    }
+    bool is_float = fabs(value) <= (double)FLT_MAX && (double)(float)value == value;
+#ifdef HAVE_WIDE
+    size_t length = is_float ? format_float(text, (float)value) : 0;
+    if (length) return length;
+#endif
+    return format_slowly(text, value, is_float);
+}

@@ -7,6 +7,7 @@
 #ifndef GVC_CHART_REBUILD_H
 #define GVC_CHART_REBUILD_H
 
+#include "base/digest.h"
 #include "chart/side_table.h"
 #include "mesh/mesh.h"
 
@@ -26,13 +27,18 @@ void gvc_rebuild_faces(const gvc_weld *weld, const uint16_t *code, uint32_t *fac
 void gvc_rebuild_positions(const gvc_weld *weld, const uint16_t *code, const double origin[3],
                            double step, double *position);
 
-/** The three above in one: a new mesh. */
+/** The three above in one: a new mesh. GVC_ERROR_CORRUPT if a code could be mapped beyond float32,
+ * i.e. if origin or origin + 65535 * step, in any component, is not finite in float32. */
 gvc_result gvc_rebuild_mesh(const gvc_weld *weld, const uint16_t *plane, const double origin[3],
                             double step, gvc_mesh **mesh, gvc_error *error);
 
-/** First eight bytes of SHA-256 over: vertex count and face count (u32), all welded codes in vertex
- * order (x, y, z as u16), all face indices (u32), everything big-endian. */
-gvc_result gvc_rebuild_digest(const gvc_weld *weld, const uint16_t *code, const uint32_t *face,
-                              uint8_t digest[8], gvc_error *error);
+/** Number of faces of the welded surface: 2 * (size - 1)^2. */
+size_t gvc_rebuild_face_count(const gvc_weld *weld);
+
+/** Adds a chart to the digest of its frame. The digest of a frame is the first eight bytes of
+ * SHA-256 over, for each chart in turn: vertex count and face count (u32), all welded codes in
+ * vertex order (x, y, z as u16), all face indices within the chart (u32), everything big-endian. */
+gvc_result gvc_rebuild_digest_update(gvc_sha256 *digest, const gvc_weld *weld, const uint16_t *code,
+                                     const uint32_t *face, gvc_error *error);
 
 #endif

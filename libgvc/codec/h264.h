@@ -35,7 +35,8 @@ void gvc_coded_group_free(gvc_coded_group *group);
 typedef struct gvc_h264_options {
     uint32_t width, height; /**< even */
     uint32_t frame_rate_num, frame_rate_den;
-    double crf;      /**< -12 .. 51 at 10 bits */
+    double crf;      /**< -12 .. 51 at 10 bits; -12: at most one off per sample (High 10 has no
+                        lossless mode) */
     unsigned effort; /**< 0: fast trial encode (same syntax, cheaper search); 1: final */
 } gvc_h264_options;
 
@@ -55,7 +56,8 @@ void gvc_h264_decoder_destroy(gvc_h264_decoder **decoder);
 /** Forgets everything; the next packet must be a keyframe. */
 void gvc_h264_decoder_reset(gvc_h264_decoder *decoder);
 /** Feeds one packet with its presentation number (any increasing-by-time number; comes back with
- * the picture). Bytes are copied as the decoder needs padding. */
+ * the picture). Bytes are copied as the decoder needs padding. Take all available pictures before
+ * the next call. After GVC_ERROR_CORRUPT every call fails until a reset. */
 gvc_result gvc_h264_decoder_send(gvc_h264_decoder *decoder, const uint8_t *data, size_t size,
                                  int64_t presentation, gvc_error *error);
 /** Tells that no packet follows, so that delayed pictures come out; call reset before sending

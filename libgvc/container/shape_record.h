@@ -12,6 +12,40 @@
 #include "base/bytes.h"
 #include "chart/side_table.h"
 
+/* Layout of a record. "varint" is unsigned LEB128 in its shortest form, f64 is IEEE 754 binary64,
+ * big-endian; a label is a length (u8) and that many bytes of UTF-8 without control characters.
+ *
+ *   type        field
+ *   u8          flags: 1 same, 2 named, 4 zstd; others 0. "same" excludes "zstd"
+ *   u8[8]       digest
+ *   label       source, 1 to 63 bytes            only with "named"
+ *   ...         body, up to the end of the sample; absent with "same". With "zstd" it is one zstd
+ *               frame (RFC 8878) with its content size, and the following is what it expands to
+ *
+ * Body:
+ *   varint      segment
+ *   varint      chart_count >= 1, then per chart
+ *     varint      component < chart_count
+ *     varint      x, y
+ *     varint      size S, 16 .. 2049
+ *     varint      genus
+ *     f64 x 3     origin
+ *     f64         step; |origin| + 65535 step does not exceed the greatest float32
+ *     varint      node_count = edge_count + 1 - 2 genus
+ *     varint      edge_count, 1 .. S - 1
+ *     node_count times
+ *       u8          kind
+ *       varint      feature, below 2^32          only if kind is 1 (extremum)
+ *     edge_count times
+ *       varint      node[0], node[1] < node_count
+ *     varint      start < 4 (S - 1)
+ *     edge_count times
+ *       varint      steps
+ *     2 edge_count times
+ *       varint      2 * edge + (1 if reversed)
+ *
+ * Charts lie in the plane and do not overlap. */
+
 typedef struct gvc_shape_node {
     uint8_t kind;     /**< 0 root, 1 extremum, 2 junction */
     uint32_t feature; /**< extremum number; 0 otherwise */
@@ -42,7 +76,8 @@ typedef struct gvc_shape {
 typedef struct gvc_shape_frame {
     bool same;         /**< charts as in the frame before */
     uint8_t digest[8]; /**< over the digests of all charts: see spec */
-    char source[64];   /**< UTF-8 name of the original frame, may be empty */
+    char source[64];   /**< UTF-8 name of the original frame, may be empty; bytes that a label may
+                          not hold are written as '?' */
 } gvc_shape_frame;
 
 void gvc_shape_free(gvc_shape *shape);

@@ -177,8 +177,9 @@ typedef struct gvc_encode_options {
     double max_rms; /**< RMS error to hold in every group of frames, as a fraction of the frame's
                          bounding-box diagonal (default 1e-3); ignored if crf is given */
     double max_rms_length; /**< > 0: the same as a length in the meshes' unit, instead of max_rms */
-    double crf;   /**< x264's rate factor at 10 bits, -12..51; NaN (default): from max_rms */
-    uint32_t gop; /**< frames per group (random access unit); default 60 */
+    double crf;       /**< x264's rate factor at 10 bits, -12..51; NaN (default): from max_rms */
+    bool best_effort; /**< warn instead of failing where the error asked for is out of reach */
+    uint32_t gop;     /**< frames per group (random access unit); default 60 */
     uint32_t frame_rate_num, frame_rate_den; /**< default 30/1 */
     uint32_t threads;                        /**< 0: one per processor. Never changes the output */
     char unit[16];                           /**< "m", "mm", or empty for unknown; recorded only */

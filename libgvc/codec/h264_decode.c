@@ -1,0 +1,254 @@
+/* SPDX-License-Identifier: MIT */
+/** @file h264_decode.c  H.264 High 10 to 10-bit luma pictures with libavcodec's own decoder.
+ * Strict: a picture is either as coded or an error, never concealed. */
+#include "codec/avc_config.h"
+#include "codec/h264.h"
+#include "codec/nal_bits.h"
+
+#include "base/memory.h"
+
+#include <libavcodec/avcodec.h>
+#include <libavutil/pixdesc.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Added to the level of every message of a context: more than the least important level of libav's
+ * log, so none is shown, without touching the process-wide log level. (Only eight bits are the
+ * level.)
+ */
+#define QUIET 128
+
+/* Table 7-1 of ISO/IEC 14496-10. */
+enum { NAL_SLICE = 1, NAL_IDR = 5, NAL_SEI = 6, NAL_AUD = 9, NAL_FILLER = 12 };
+
+struct gvc_h264_decoder {
+    AVCodecContext *context;
+    AVFrame *frame;
+    AVPacket *packet;
+    size_t width, height;
+    uint64_t sent, received;      /* pictures since the last reset */
+    unsigned frame_num_bits;      /* length of frame_num in slice headers */
+    uint32_t reference_frame_num; /* frame_num of the previous reference picture */
+    bool flushed, failed;
+};
+
+static gvc_result fail_av(gvc_h264_decoder *d, int status, gvc_error *error) {
+    d->failed = true;
+    if (status == AVERROR(ENOMEM)) return gvc_fail_memory(error);
+    return gvc_fail(error, GVC_ERROR_CORRUPT, "the H.264 data of a picture is damaged");
+}
+
+void gvc_h264_decoder_destroy(gvc_h264_decoder **decoder) {
+    if (!decoder || !*decoder) return;
+    av_frame_free(&(*decoder)->frame);
+    av_packet_free(&(*decoder)->packet);
+    avcodec_free_context(&(*decoder)->context);
+    free(*decoder);
+    *decoder = NULL;
+}
+
+/* libavcodec checks its limit against padded rows. */
+static size_t align_64(size_t value) { return (value + 63) / 64 * 64; }
+
+static gvc_result open_decoder(gvc_h264_decoder *d, const uint8_t *config, size_t config_size,
+                               gvc_error *error) {
+    /* By name, so that no hardware decoder, which may conceal, is chosen. */
+    const AVCodec *codec = avcodec_find_decoder_by_name("h264");
+    if (!codec) return gvc_fail(error, GVC_ERROR_UNSUPPORTED, "libavcodec has no H.264 decoder");
+    AVCodecContext *c = d->context = avcodec_alloc_context3(codec);
+    d->frame = av_frame_alloc();
+    d->packet = av_packet_alloc();
+    if (!c || !d->frame || !d->packet) return gvc_fail_memory(error);
+    c->extradata = av_mallocz(config_size + AV_INPUT_BUFFER_PADDING_SIZE);
+    if (!c->extradata) return gvc_fail_memory(error);
+    memcpy(c->extradata, config, config_size);
+    c->extradata_size = (int)config_size;
+    c->log_level_offset = QUIET;
+    c->thread_count = 1;
+    c->err_recognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER | AV_EF_EXPLODE;
+    /* Output order by the standard even where the stream does not state its reorder depth. */
+    c->strict_std_compliance = FF_COMPLIANCE_STRICT;
+    c->max_pixels = (int64_t)(align_64(d->width) * align_64(d->height));
+    int status = avcodec_open2(c, codec, NULL);
+    return status < 0 ? fail_av(d, status, error) : GVC_OK;
+}
+
+gvc_result gvc_h264_decoder_create(const uint8_t *config, size_t config_size, uint32_t width,
+                                   uint32_t height, gvc_h264_decoder **decoder, gvc_error *error) {
+    *decoder = NULL;
+    if (!width || !height || width > INT16_MAX || height > INT16_MAX) {
+        return gvc_fail(error, GVC_ERROR_ARGUMENT, "no picture has %u x %u samples",
+                        (unsigned)width, (unsigned)height);
+    }
+    unsigned frame_num_bits;
+    GVC_TRY(gvc_avc_config_check(config, config_size, width, height, &frame_num_bits, error));
+    if (config_size > INT_MAX - AV_INPUT_BUFFER_PADDING_SIZE) {
+        return gvc_fail(error, GVC_ERROR_CORRUPT, "the H.264 configuration record is too large");
+    }
+    gvc_h264_decoder *d = gvc_alloc(1, sizeof *d);
+    if (!d) return gvc_fail_memory(error);
+    d->width = width;
+    d->height = height;
+    d->frame_num_bits = frame_num_bits;
+    gvc_result result = open_decoder(d, config, config_size, error);
+    if (result != GVC_OK) gvc_h264_decoder_destroy(&d);
+    *decoder = d;
+    return result;
+}
+
+void gvc_h264_decoder_reset(gvc_h264_decoder *decoder) {
+    avcodec_flush_buffers(decoder->context);
+    decoder->sent = decoder->received = 0;
+    decoder->flushed = decoder->failed = false;
+}
+
+/* Measures the slices of an AVC sample, and with `out` copies them: parameter sets must not stand
+ * there (they could change the size of the pictures); SEI and delimiters say nothing about samples
+ * and are left out. */
+static gvc_result copy_slices(const uint8_t *data, size_t size, bool keyframe, uint8_t *out,
+                              size_t *copied, gvc_error *error) {
+    gvc_cursor in = gvc_cursor_make(data, size);
+    size_t length = 0;
+    while (gvc_cursor_left(&in) > 0 && !in.failed) {
+        size_t begin = in.position, nal_size = gvc_read_u32(&in);
+        const uint8_t *nal = gvc_read_bytes(&in, nal_size);
+        if (in.failed || !nal || nal_size < 2) break;
+        unsigned type = nal[0] & 31;
+        if (type == NAL_SEI || type == NAL_AUD || type == NAL_FILLER) continue;
+        if (nal[0] & 0x80 || (type != NAL_SLICE && type != NAL_IDR)) {
+            return gvc_fail(error, GVC_ERROR_CORRUPT,
+                            "NAL unit type %u does not belong in a sample", type);
+        }
+        if (keyframe != (type == NAL_IDR)) {
+            return gvc_fail(error, GVC_ERROR_CORRUPT,
+                            keyframe ? "the first picture of a group is no IDR picture"
+                                     : "an IDR picture stands inside a group");
+        }
+        if (out) memcpy(out + length, data + begin, 4 + nal_size);
+        length += 4 + nal_size;
+    }
+    if (in.failed || gvc_cursor_left(&in) > 0 || length == 0) {
+        return gvc_fail(error, GVC_ERROR_CORRUPT, "the NAL units of a sample do not fill it");
+    }
+    *copied = length;
+    return GVC_OK;
+}
+
+/* libavcodec makes up a picture where a reference is missing. frame_num tells (7.4.3): it is that
+ * of the previous reference picture or one more. */
+static gvc_result check_frame_num(gvc_h264_decoder *d, const uint8_t *slice, size_t size,
+                                  gvc_error *error) {
+    enum { HEADER = 24 }; /* enough for three ue(v) of any legal value and frame_num */
+    uint8_t payload[HEADER];
+    gvc_nal_bits bits = {.data = payload};
+    bits.bit_count =
+        8 * gvc_nal_unescape(slice + 5, size - 5 < HEADER ? size - 5 : HEADER, payload);
+    uint32_t first_macroblock = gvc_nal_ue(&bits);
+    gvc_nal_ue(&bits); /* slice_type */
+    gvc_nal_ue(&bits); /* pic_parameter_set_id */
+    uint32_t frame_num = gvc_nal_bits_read(&bits, d->frame_num_bits);
+    uint32_t mask = (UINT32_C(1) << d->frame_num_bits) - 1;
+    bool follows = d->sent == 0 ? frame_num == 0
+                                : frame_num == d->reference_frame_num ||
+                                      frame_num == ((d->reference_frame_num + 1) & mask);
+    if (bits.failed || first_macroblock != 0 || !follows) {
+        return gvc_fail(error, GVC_ERROR_CORRUPT, "a reference picture is missing");
+    }
+    if (slice[4] & 0x60) d->reference_frame_num = frame_num; /* nal_ref_idc */
+    return GVC_OK;
+}
+
+static gvc_result send_packet(gvc_h264_decoder *d, const uint8_t *data, size_t size,
+                              int64_t presentation, gvc_error *error) {
+    size_t length;
+    GVC_TRY(copy_slices(data, size, d->sent == 0, NULL, &length, error));
+    if (length > INT_MAX - AV_INPUT_BUFFER_PADDING_SIZE) {
+        return gvc_fail(error, GVC_ERROR_LIMIT, "a picture of %zu bytes is too large", length);
+    }
+    int status = av_new_packet(d->packet, (int)length); /* padded with zeros */
+    if (status < 0) return fail_av(d, status, error);
+    GVC_TRY(copy_slices(data, size, d->sent == 0, d->packet->data, &length, error));
+    gvc_result result = check_frame_num(d, d->packet->data, length, error);
+    if (result != GVC_OK) {
+        av_packet_unref(d->packet);
+        return result;
+    }
+    d->packet->pts = presentation;
+    if (d->sent == 0) d->packet->flags |= AV_PKT_FLAG_KEY;
+    status = avcodec_send_packet(d->context, d->packet);
+    av_packet_unref(d->packet);
+    if (status == AVERROR(EAGAIN)) {
+        return gvc_fail(error, GVC_ERROR_ARGUMENT, "decoded pictures must be taken first");
+    }
+    if (status < 0) return fail_av(d, status, error);
+    d->sent++;
+    return GVC_OK;
+}
+
+gvc_result gvc_h264_decoder_send(gvc_h264_decoder *decoder, const uint8_t *data, size_t size,
+                                 int64_t presentation, gvc_error *error) {
+    gvc_h264_decoder *d = decoder;
+    if (d->failed || d->flushed) {
+        return gvc_fail(error, GVC_ERROR_ARGUMENT, "the H.264 decoder must be reset first");
+    }
+    gvc_result result = send_packet(d, data, size, presentation, error);
+    if (result != GVC_OK && result != GVC_ERROR_ARGUMENT) d->failed = true;
+    return result;
+}
+
+gvc_result gvc_h264_decoder_flush(gvc_h264_decoder *decoder, gvc_error *error) {
+    gvc_h264_decoder *d = decoder;
+    if (d->failed || d->flushed) {
+        return gvc_fail(error, GVC_ERROR_ARGUMENT, "the H.264 decoder must be reset first");
+    }
+    int status = avcodec_send_packet(d->context, NULL);
+    if (status < 0) return fail_av(d, status, error);
+    d->flushed = true;
+    return GVC_OK;
+}
+
+static gvc_result check_frame(gvc_h264_decoder *d, gvc_error *error) {
+    const AVFrame *f = d->frame;
+    if (f->format != AV_PIX_FMT_YUV420P10 || f->width != (int)d->width ||
+        f->height != (int)d->height) {
+        return gvc_fail(error, GVC_ERROR_CORRUPT, "a picture decodes to %d x %d of another format",
+                        f->width, f->height);
+    }
+    if (f->decode_error_flags || f->flags & AV_FRAME_FLAG_CORRUPT) {
+        return gvc_fail(error, GVC_ERROR_CORRUPT, "a picture is coded incompletely");
+    }
+    return GVC_OK;
+}
+
+gvc_result gvc_h264_decoder_receive(gvc_h264_decoder *decoder, uint16_t *luma,
+                                    int64_t *presentation, bool *available, gvc_error *error) {
+    gvc_h264_decoder *d = decoder;
+    *available = false;
+    if (d->failed) {
+        return gvc_fail(error, GVC_ERROR_ARGUMENT, "the H.264 decoder must be reset first");
+    }
+    int status = avcodec_receive_frame(d->context, d->frame);
+    if (status == AVERROR(EAGAIN)) return GVC_OK;
+    if (status == AVERROR_EOF) {
+        if (d->received == d->sent) return GVC_OK;
+        d->failed = true;
+        return gvc_fail(error, GVC_ERROR_CORRUPT, "%llu packets decode to %llu pictures",
+                        (unsigned long long)d->sent, (unsigned long long)d->received);
+    }
+    if (status < 0) return fail_av(d, status, error);
+    gvc_result result = check_frame(d, error);
+    if (result == GVC_OK) {
+        for (size_t y = 0; y < d->height; y++) {
+            memcpy(luma + y * d->width, d->frame->data[0] + (ptrdiff_t)y * d->frame->linesize[0],
+                   d->width * sizeof *luma);
+        }
+        *presentation = d->frame->pts;
+        *available = true;
+        d->received++;
+    } else {
+        d->failed = true;
+    }
+    av_frame_unref(d->frame);
+    return result;
+}

@@ -1,0 +1,305 @@
+/* SPDX-License-Identifier: MIT */
+/** @file writer.c  Writes a `.gvc` file front to back. */
+#include "container/writer.h"
+
+#include "base/digest.h"
+#include "base/memory.h"
+#include "container/box.h"
+#include "container/writer_moov.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/** What mfra will say of a fragment. */
+typedef struct index_entry {
+    uint64_t offset; /**< of its moof */
+    uint64_t time;   /**< presentation time of its first sample */
+} index_entry;
+
+struct gvc_writer {
+    gvc_sink sink;
+    uint32_t frame_duration;
+    uint64_t declared_frames, next_frame, byte_count;
+    uint32_t sequence;
+    gvc_buffer buffer; /**< the box being put together */
+    index_entry *entry;
+    size_t entry_count, entry_capacity;
+    bool closed; /**< finished, or failed halfway: nothing may be written any more */
+};
+
+static gvc_result put(gvc_writer *writer, const void *data, size_t size, gvc_error *error) {
+    GVC_TRY(writer->sink.write(writer->sink.user, data, size, error));
+    writer->byte_count += size;
+    return GVC_OK;
+}
+
+static gvc_result put_buffer(gvc_writer *writer, gvc_error *error) {
+    if (writer->buffer.failed) return gvc_fail_memory(error);
+    return put(writer, writer->buffer.data, writer->buffer.size, error);
+}
+
+/** Refuses what the reader would refuse. The texts of a configuration cannot be wrong: labels are
+ * cleaned as they are written. */
+static gvc_result check_config(const gvc_config *config, gvc_buffer *scratch, gvc_error *error) {
+    gvc_config back;
+    gvc_buffer_clear(scratch);
+    gvc_config_write(config, scratch);
+    if (scratch->failed) return gvc_fail_memory(error);
+    gvc_cursor cursor = gvc_cursor_make(scratch->data, scratch->size);
+    gvc_result result = gvc_config_read(&cursor, &back, error);
+    gvc_buffer_clear(scratch);
+    if (result == GVC_OK) return GVC_OK;
+    if (error) error->code = GVC_ERROR_ARGUMENT;
+    return GVC_ERROR_ARGUMENT;
+}
+
+gvc_result gvc_writer_create(const gvc_sink *sink, const gvc_config *config,
+                             const uint8_t *avc_config, size_t avc_config_size, gvc_writer **writer,
+                             gvc_error *error) {
+    *writer = NULL;
+    gvc_writer *made = gvc_alloc(1, sizeof *made);
+    if (!made) return gvc_fail_memory(error);
+    *made = (gvc_writer){.sink = *sink,
+                         .frame_duration = config->frame_rate_den,
+                         .declared_frames = config->declared_frames};
+    gvc_result result;
+    GVC_CHECK(check_config(config, &made->buffer, error));
+    gvc_write_head(config, avc_config, avc_config_size, &made->buffer);
+    GVC_CHECK(put_buffer(made, error));
+    *writer = made;
+    return GVC_OK;
+cleanup:
+    gvc_writer_destroy(&made);
+    return result;
+}
+
+/** Sum of the sizes of samples; fails for a size that trun cannot hold. */
+static gvc_result sum_sizes(const gvc_sample *sample, size_t count, uint64_t *sum,
+                            gvc_error *error) {
+    *sum = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (sample[i].size == 0 || sample[i].size > UINT32_MAX) {
+            return gvc_fail(error, GVC_ERROR_ARGUMENT, "sample %zu has %zu bytes", i,
+                            sample[i].size);
+        }
+        *sum += sample[i].size;
+    }
+    return GVC_OK;
+}
+
+/** The composition offsets of a track must make its frames a permutation, and fit trun. */
+static gvc_result check_order(const gvc_writer *writer, const gvc_sample *sample, size_t count,
+                              gvc_error *error) {
+    uint8_t *met = gvc_alloc(count, 1);
+    if (!met) return gvc_fail_memory(error);
+    gvc_result result = GVC_OK;
+    for (size_t i = 0; i < count; i++) {
+        int64_t shown = (int64_t)i + sample[i].composition_offset;
+        int64_t ticks = (int64_t)sample[i].composition_offset * writer->frame_duration;
+        if (shown < 0 || shown >= (int64_t)count || met[shown]) {
+            result = gvc_fail(error, GVC_ERROR_ARGUMENT,
+                              "the composition offsets do not order %zu samples", count);
+            break;
+        }
+        if (ticks < INT32_MIN || ticks > INT32_MAX) {
+            result = gvc_fail(error, GVC_ERROR_ARGUMENT,
+                              "a composition offset of %lld ticks does not fit", (long long)ticks);
+            break;
+        }
+        met[shown] = 1;
+    }
+    free(met);
+    return result;
+}
+
+static gvc_result check_fragment(const gvc_writer *writer, const gvc_fragment *fragment,
+                                 uint64_t *shape_bytes, uint64_t *geometry_bytes,
+                                 gvc_error *error) {
+    size_t count = fragment->frame_count;
+    if (writer->closed) {
+        return gvc_fail(error, GVC_ERROR_ARGUMENT, "the file is finished, or writing it failed");
+    }
+    if (fragment->first_frame != writer->next_frame || count == 0 || count > INT32_MAX) {
+        return gvc_fail(error, GVC_ERROR_ARGUMENT,
+                        "a fragment of %zu frames from %llu; the next frame is %llu", count,
+                        (unsigned long long)fragment->first_frame,
+                        (unsigned long long)writer->next_frame);
+    }
+    if (fragment->first_frame > UINT64_MAX / writer->frame_duration - count) {
+        return gvc_fail(error, GVC_ERROR_LIMIT, "frame %llu does not fit in time",
+                        (unsigned long long)fragment->first_frame);
+    }
+    if (!fragment->geometry[0].sync || !fragment->shape[0].sync) {
+        return gvc_fail(error, GVC_ERROR_ARGUMENT, "a fragment must begin with sync samples");
+    }
+    GVC_TRY(sum_sizes(fragment->shape, count, shape_bytes, error));
+    GVC_TRY(sum_sizes(fragment->geometry, count, geometry_bytes, error));
+    GVC_TRY(check_order(writer, fragment->shape, count, error));
+    return check_order(writer, fragment->geometry, count, error);
+}
+
+/** Flags of trun, as few fields per sample as tell all. */
+static uint32_t run_flags(const gvc_sample *sample, size_t count) {
+    uint32_t flags = GVC_TRUN_DATA_OFFSET | GVC_TRUN_FIRST_FLAGS | GVC_TRUN_SIZE;
+    for (size_t i = 0; i < count; i++) {
+        if (sample[i].composition_offset) flags |= GVC_TRUN_COMPOSITION;
+        if (i && sample[i].sync) flags = (flags & ~GVC_TRUN_FIRST_FLAGS) | GVC_TRUN_FLAGS;
+    }
+    return flags;
+}
+
+/** Returns the position of the data offset, which is patched when moof's size is known. */
+static size_t write_trun(const gvc_writer *writer, const gvc_sample *sample, size_t count,
+                         gvc_buffer *buffer) {
+    uint32_t flags = run_flags(sample, count);
+    size_t trun = gvc_box_begin_full(buffer, GVC_BOX_TRUN, 1, flags);
+    gvc_write_u32(buffer, (uint32_t)count);
+    size_t data_offset = buffer->size;
+    gvc_write_u32(buffer, 0);
+    if (flags & GVC_TRUN_FIRST_FLAGS) gvc_write_u32(buffer, GVC_FLAGS_SYNC);
+    for (size_t i = 0; i < count; i++) {
+        gvc_write_u32(buffer, (uint32_t)sample[i].size);
+        if (flags & GVC_TRUN_FLAGS) {
+            gvc_write_u32(buffer, sample[i].sync ? GVC_FLAGS_SYNC : GVC_FLAGS_NON_SYNC);
+        }
+        if (flags & GVC_TRUN_COMPOSITION) {
+            int64_t ticks = (int64_t)sample[i].composition_offset * writer->frame_duration;
+            gvc_write_u32(buffer, (uint32_t)(int32_t)ticks);
+        }
+    }
+    gvc_box_end(buffer, trun);
+    return data_offset;
+}
+
+static size_t write_traf(const gvc_writer *writer, uint32_t track, const gvc_sample *sample,
+                         size_t count, gvc_buffer *buffer) {
+    size_t traf = gvc_box_begin(buffer, GVC_BOX_TRAF);
+    size_t tfhd = gvc_box_begin_full(buffer, GVC_BOX_TFHD, 0, GVC_TFHD_BASE_IS_MOOF);
+    gvc_write_u32(buffer, track);
+    gvc_box_end(buffer, tfhd);
+    size_t tfdt = gvc_box_begin_full(buffer, GVC_BOX_TFDT, 1, 0);
+    gvc_write_u64(buffer, writer->next_frame * writer->frame_duration);
+    gvc_box_end(buffer, tfdt);
+    size_t data_offset = write_trun(writer, sample, count, buffer);
+    size_t gcks = gvc_box_begin_full(buffer, GVC_BOX_GCKS, 0, 0);
+    for (size_t i = 0; i < count; i++) {
+        gvc_write_u32(buffer, gvc_crc32(0, sample[i].data, sample[i].size));
+    }
+    gvc_box_end(buffer, gcks);
+    gvc_box_end(buffer, traf);
+    return data_offset;
+}
+
+/** Builds moof and the header of mdat. In mdat the shape records come first: they are small, and a
+ * receiver then has the weld of every frame when its picture arrives, so that each picture can be
+ * shown at once instead of after the whole group. */
+static gvc_result build_moof(gvc_writer *writer, const gvc_fragment *fragment, uint64_t shape_bytes,
+                             uint64_t geometry_bytes, gvc_error *error) {
+    gvc_buffer *buffer = &writer->buffer;
+    gvc_buffer_clear(buffer);
+    size_t moof = gvc_box_begin(buffer, GVC_BOX_MOOF);
+    size_t mfhd = gvc_box_begin_full(buffer, GVC_BOX_MFHD, 0, 0);
+    gvc_write_u32(buffer, writer->sequence + 1);
+    gvc_box_end(buffer, mfhd);
+    size_t geometry = write_traf(writer, GVC_GEOMETRY_TRACK, fragment->geometry,
+                                 fragment->frame_count, buffer);
+    size_t shape =
+        write_traf(writer, GVC_SHAPE_TRACK, fragment->shape, fragment->frame_count, buffer);
+    uint64_t payload = shape_bytes + geometry_bytes;
+    uint32_t mdat_header = payload + 8 > UINT32_MAX ? 16 : 8;
+    uint64_t moof_size = (uint64_t)buffer->size + GVC_GCRC_SIZE;
+    uint64_t shape_offset = moof_size + mdat_header;
+    if (shape_offset + shape_bytes > INT32_MAX) {
+        return gvc_fail(error, GVC_ERROR_LIMIT, "%llu bytes of shape records in one fragment",
+                        (unsigned long long)shape_bytes);
+    }
+    gvc_patch_u32(buffer, moof, (uint32_t)moof_size);
+    gvc_patch_u32(buffer, shape, (uint32_t)shape_offset);
+    gvc_patch_u32(buffer, geometry, (uint32_t)(shape_offset + shape_bytes));
+    gvc_box_write_crc(buffer, moof, 0);
+    gvc_write_u32(buffer, mdat_header == 16 ? 1 : (uint32_t)(payload + 8));
+    gvc_write_u32(buffer, GVC_BOX_MDAT);
+    if (mdat_header == 16) gvc_write_u64(buffer, payload + 16);
+    return buffer->failed ? gvc_fail_memory(error) : GVC_OK;
+}
+
+static gvc_result put_samples(gvc_writer *writer, const gvc_sample *sample, size_t count,
+                              gvc_error *error) {
+    for (size_t i = 0; i < count; i++) {
+        GVC_TRY(put(writer, sample[i].data, sample[i].size, error));
+    }
+    return GVC_OK;
+}
+
+gvc_result gvc_writer_fragment(gvc_writer *writer, const gvc_fragment *fragment, gvc_error *error) {
+    uint64_t shape_bytes, geometry_bytes;
+    GVC_TRY(check_fragment(writer, fragment, &shape_bytes, &geometry_bytes, error));
+    GVC_TRY(build_moof(writer, fragment, shape_bytes, geometry_bytes, error));
+    if (!gvc_grow((void **)&writer->entry, &writer->entry_capacity, writer->entry_count + 1,
+                  sizeof *writer->entry)) {
+        return gvc_fail_memory(error);
+    }
+    uint64_t first_shown =
+        fragment->first_frame + (uint64_t)fragment->geometry[0].composition_offset;
+    writer->entry[writer->entry_count] =
+        (index_entry){.offset = writer->byte_count, .time = first_shown * writer->frame_duration};
+    writer->closed = true; /* unless all of it gets out */
+    GVC_TRY(put_buffer(writer, error));
+    GVC_TRY(put_samples(writer, fragment->shape, fragment->frame_count, error));
+    GVC_TRY(put_samples(writer, fragment->geometry, fragment->frame_count, error));
+    writer->closed = false;
+    writer->entry_count++;
+    writer->sequence++;
+    writer->next_frame += fragment->frame_count;
+    return GVC_OK;
+}
+
+static void write_tfra(const gvc_writer *writer, gvc_buffer *buffer) {
+    size_t tfra = gvc_box_begin_full(buffer, GVC_BOX_TFRA, 1, 0);
+    gvc_write_u32(buffer, GVC_GEOMETRY_TRACK);
+    gvc_write_u32(buffer, 0); /* traf, trun and sample numbers take one byte each */
+    gvc_write_u32(buffer, (uint32_t)writer->entry_count);
+    for (size_t i = 0; i < writer->entry_count; i++) {
+        gvc_write_u64(buffer, writer->entry[i].time);
+        gvc_write_u64(buffer, writer->entry[i].offset);
+        for (unsigned k = 0; k < 3; k++) gvc_write_u8(buffer, 1);
+    }
+    gvc_box_end(buffer, tfra);
+}
+
+gvc_result gvc_writer_finish(gvc_writer *writer, gvc_error *error) {
+    if (writer->closed) {
+        return gvc_fail(error, GVC_ERROR_ARGUMENT, "the file is finished, or writing it failed");
+    }
+    if (writer->declared_frames && writer->declared_frames != writer->next_frame) {
+        return gvc_fail(error, GVC_ERROR_ARGUMENT, "%llu frames written of %llu declared",
+                        (unsigned long long)writer->next_frame,
+                        (unsigned long long)writer->declared_frames);
+    }
+    gvc_buffer *buffer = &writer->buffer;
+    gvc_buffer_clear(buffer);
+    size_t mfra = gvc_box_begin(buffer, GVC_BOX_MFRA);
+    write_tfra(writer, buffer);
+    uint64_t mfra_size = (uint64_t)buffer->size + GVC_GCRC_SIZE + GVC_MFRO_SIZE;
+    if (mfra_size > UINT32_MAX) {
+        return gvc_fail(error, GVC_ERROR_LIMIT, "%zu fragments are too many for an index",
+                        writer->entry_count);
+    }
+    gvc_patch_u32(buffer, mfra, (uint32_t)mfra_size);
+    gvc_box_write_crc(buffer, mfra, 0);
+    size_t mfro = gvc_box_begin_full(buffer, GVC_BOX_MFRO, 0, 0);
+    gvc_write_u32(buffer, (uint32_t)mfra_size); /* must be last: it is read from the file's end */
+    gvc_box_end(buffer, mfro);
+    writer->closed = true;
+    return put_buffer(writer, error);
+}
+
+uint64_t gvc_writer_byte_count(const gvc_writer *writer) { return writer->byte_count; }
+
+void gvc_writer_destroy(gvc_writer **writer) {
+    if (!writer || !*writer) return;
+    gvc_buffer_free(&(*writer)->buffer);
+    free((*writer)->entry);
+    free(*writer);
+    *writer = NULL;
+}

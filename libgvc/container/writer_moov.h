@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: MIT */
+/** @file writer_moov.h  The head of a file. */
+#ifndef GVC_CONTAINER_WRITER_MOOV_H
+#define GVC_CONTAINER_WRITER_MOOV_H
+
+#include "container/config.h"
+
+/* Track numbers as this writer gives them; a reader takes any. */
+#define GVC_GEOMETRY_TRACK 1u
+#define GVC_SHAPE_TRACK 2u
+
+/** Appends ftyp and moov to an empty buffer. `avc_config` is the content of avcC. */
+void gvc_write_head(const gvc_config *config, const uint8_t *avc_config, size_t avc_config_size,
+                    gvc_buffer *buffer);
+
+#endif

@@ -1,0 +1,261 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file decoder.c
+ * From a file to meshes: shape record and picture of a frame, charts cut out of the picture,
+ * welded, triangulated, digested, placed in space. Everything up to the last affine map is integer.
+ */
+#include "base/digest.h"
+#include "base/memory.h"
+#include "chart/picture.h"
+#include "chart/rebuild.h"
+#include "codec/h264.h"
+#include "file.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define NO_FRAGMENT SIZE_MAX
+
+struct gvc_decoder {
+    const gvc_reader *reader;
+    gvc_h264_decoder *h264;
+    gvc_buffer sample;
+    uint16_t *luma; /* last picture received: 3 planes, one above the other */
+    gvc_picture_layout layout;
+
+    size_t fragment; /* being decoded, or NO_FRAGMENT */
+    size_t sent;     /* samples of it fed to the H.264 decoder */
+    bool flushed;
+    uint64_t next_frame; /* presentation number of the next picture to come out */
+
+    gvc_shape shape; /* of frames shape_from ... in the fragment, while shape_known */
+    bool shape_known;
+    uint64_t shape_from;
+    gvc_weld *weld; /* one per chart of `shape` */
+};
+
+static void forget_shape(gvc_decoder *decoder) {
+    for (size_t c = 0; decoder->weld && c < decoder->shape.chart_count; c++) {
+        gvc_weld_free(&decoder->weld[c]);
+    }
+    free(decoder->weld);
+    decoder->weld = NULL;
+    gvc_shape_free(&decoder->shape);
+    decoder->shape_known = false;
+}
+
+static void forget_fragment(gvc_decoder *decoder) {
+    decoder->fragment = NO_FRAGMENT;
+    forget_shape(decoder);
+}
+
+/* Bytes held while one frame is decoded: the picture here and, at worst, 17 times in the H.264
+ * decoder's reference and reorder buffers (ISO/IEC 14496-10 A.3.1: at most 16 frames), welds, codes
+ * and the mesh. */
+static uint64_t memory_needed(const gvc_config *config) {
+    uint64_t samples = (uint64_t)config->picture_width * config->plane_height;
+    uint64_t picture = 3 * samples * sizeof(uint16_t);
+    uint64_t per_sample =
+        sizeof(uint32_t) + 3 * sizeof(uint16_t) + 3 * sizeof(double) + 2 * 3 * sizeof(uint32_t);
+    return picture + 17 * (picture * 3 / 2) + samples * per_sample;
+}
+
+gvc_result gvc_decoder_create(const gvc_reader *reader, gvc_decoder **decoder, gvc_error *error) {
+    const gvc_config *config = &reader->demux.config;
+    *decoder = NULL;
+    uint64_t needed = memory_needed(config);
+    if (needed > reader->options.max_memory) {
+        return gvc_fail(error, GVC_ERROR_LIMIT,
+                        "decoding %u x %u pictures may take %llu MiB, more than the limit",
+                        config->picture_width, 3 * config->plane_height,
+                        (unsigned long long)(needed >> 20));
+    }
+    gvc_decoder *made = gvc_alloc(1, sizeof *made);
+    if (!made) return gvc_fail_memory(error);
+    made->reader = reader;
+    made->fragment = NO_FRAGMENT;
+    made->layout = (gvc_picture_layout){config->picture_width, config->plane_height};
+    made->luma =
+        gvc_alloc((size_t)config->picture_width * config->plane_height * 3, sizeof *made->luma);
+    gvc_result result = made->luma ? GVC_OK : gvc_fail_memory(error);
+    if (result == GVC_OK) {
+        result = gvc_h264_decoder_create(reader->demux.avc_config, reader->demux.avc_config_size,
+                                         config->picture_width, 3 * config->plane_height,
+                                         &made->h264, error);
+    }
+    if (result != GVC_OK) {
+        gvc_decoder_destroy(&made);
+        return result;
+    }
+    *decoder = made;
+    return GVC_OK;
+}
+
+void gvc_decoder_destroy(gvc_decoder **decoder) {
+    if (!decoder || !*decoder) return;
+    forget_shape(*decoder);
+    gvc_h264_decoder_destroy(&(*decoder)->h264);
+    gvc_buffer_free(&(*decoder)->sample);
+    free((*decoder)->luma);
+    free(*decoder);
+    *decoder = NULL;
+}
+
+/* ------------------------------------------------------------------------------------ pictures */
+
+/* Feeds the next packet of the fragment, or the end of it. */
+static gvc_result feed(gvc_decoder *decoder, gvc_error *error) {
+    const gvc_demux *demux = &decoder->reader->demux;
+    const gvc_fragment_entry *fragment = &demux->fragment[decoder->fragment];
+    if (decoder->sent == fragment->frame_count) {
+        if (decoder->flushed) {
+            return gvc_fail(error, GVC_ERROR_CORRUPT,
+                            "the video holds fewer pictures than samples");
+        }
+        decoder->flushed = true;
+        return gvc_h264_decoder_flush(decoder->h264, error);
+    }
+    size_t index = fragment->first_sample[GVC_TRACK_GEOMETRY] + decoder->sent;
+    const gvc_sample_entry *sample = &demux->sample[GVC_TRACK_GEOMETRY][index];
+    GVC_TRY(gvc_demux_read(demux, &decoder->reader->io, GVC_TRACK_GEOMETRY, index, &decoder->sample,
+                           error));
+    decoder->sent++;
+    gvc_result result =
+        gvc_h264_decoder_send(decoder->h264, decoder->sample.data, decoder->sample.size,
+                              (int64_t)sample->presentation, error);
+    if (result != GVC_OK && error && error->offset == GVC_NO_OFFSET) error->offset = sample->offset;
+    return result;
+}
+
+/* Decodes up to and including the picture of `frame`. */
+static gvc_result decode_picture(gvc_decoder *decoder, uint64_t frame, gvc_error *error) {
+    while (decoder->next_frame <= frame) {
+        int64_t presentation;
+        bool available;
+        GVC_TRY(gvc_h264_decoder_receive(decoder->h264, decoder->luma, &presentation, &available,
+                                         error));
+        if (!available) {
+            GVC_TRY(feed(decoder, error));
+        } else if ((uint64_t)presentation != decoder->next_frame) {
+            return gvc_fail(error, GVC_ERROR_CORRUPT, "a picture is missing before frame %lld",
+                            (long long)presentation);
+        } else {
+            decoder->next_frame++;
+        }
+    }
+    return GVC_OK;
+}
+
+/* Leaves the picture of `frame` in decoder->luma. */
+static gvc_result seek_picture(gvc_decoder *decoder, size_t fragment, uint64_t frame,
+                               gvc_error *error) {
+    if (decoder->fragment != fragment || decoder->next_frame > frame) {
+        gvc_h264_decoder_reset(decoder->h264);
+        if (decoder->fragment != fragment) forget_shape(decoder);
+        decoder->fragment = fragment;
+        decoder->sent = 0;
+        decoder->flushed = false;
+        decoder->next_frame = decoder->reader->demux.fragment[fragment].first_frame;
+    }
+    return decode_picture(decoder, frame, error);
+}
+
+/* -------------------------------------------------------------------------------------- shapes */
+
+static gvc_result build_welds(gvc_decoder *decoder, gvc_error *error) {
+    decoder->weld = gvc_alloc(decoder->shape.chart_count, sizeof *decoder->weld);
+    if (!decoder->weld) return gvc_fail_memory(error);
+    for (size_t c = 0; c < decoder->shape.chart_count; c++) {
+        GVC_TRY(gvc_weld_build(&decoder->shape.chart[c].sides, &decoder->weld[c], error));
+    }
+    return GVC_OK;
+}
+
+/* Makes decoder->shape that of `frame`; in order this reads one small record a frame. */
+static gvc_result seek_shape(gvc_decoder *decoder, size_t fragment, uint64_t frame,
+                             gvc_shape_frame *facts, gvc_error *error) {
+    gvc_shape shape;
+    uint64_t owner;
+    GVC_TRY(gvc_reader_shape(decoder->reader, fragment, frame, &shape, facts, &owner, error));
+    if (decoder->shape_known && decoder->shape_from == owner) {
+        gvc_shape_free(&shape);
+        return GVC_OK;
+    }
+    forget_shape(decoder);
+    decoder->shape = shape;
+    gvc_result result = build_welds(decoder, error);
+    if (result != GVC_OK) {
+        forget_shape(decoder);
+        return result;
+    }
+    decoder->shape_known = true;
+    decoder->shape_from = owner;
+    return GVC_OK;
+}
+
+/* ---------------------------------------------------------------------------------------- mesh */
+
+/* Rebuilds chart `c` into `mesh` from vertex and face number `first_*` on, and adds it to the
+ * digest. */
+static gvc_result rebuild_chart(gvc_decoder *decoder, size_t c, gvc_mesh *mesh, size_t first_vertex,
+                                size_t first_face, gvc_sha256 *digest, gvc_error *error) {
+    const gvc_chart_shape *chart = &decoder->shape.chart[c];
+    const gvc_weld *weld = &decoder->weld[c];
+    size_t samples = (size_t)weld->size * weld->size;
+    uint16_t *plane = gvc_alloc(3 * samples, sizeof *plane);
+    uint16_t *code = gvc_alloc((size_t)3 * weld->vertex_count, sizeof *code);
+    gvc_result result = plane && code ? GVC_OK : gvc_fail_memory(error);
+    if (result == GVC_OK) {
+        uint32_t *face = mesh->face + 3 * first_face;
+        size_t face_count = gvc_rebuild_face_count(weld);
+        gvc_picture_cut(decoder->layout, decoder->luma, chart->x, chart->y, chart->sides.size,
+                        decoder->reader->demux.config.code_shift, plane);
+        gvc_weld_codes(weld, plane, code);
+        gvc_rebuild_faces(weld, code, face);
+        result = gvc_rebuild_digest_update(digest, weld, code, face, error);
+        gvc_rebuild_positions(weld, code, chart->origin, chart->step,
+                              mesh->position + 3 * first_vertex);
+        for (size_t i = 0; i < 3 * face_count; i++) face[i] += (uint32_t)first_vertex;
+    }
+    free(plane);
+    free(code);
+    return result;
+}
+
+static gvc_result rebuild_frame(gvc_decoder *decoder, const uint8_t expected[8], gvc_mesh **mesh,
+                                gvc_error *error) {
+    size_t vertex_count = 0, face_count = 0;
+    for (size_t c = 0; c < decoder->shape.chart_count; c++) {
+        vertex_count += decoder->weld[c].vertex_count;
+        face_count += gvc_rebuild_face_count(&decoder->weld[c]);
+    }
+    GVC_TRY(gvc_mesh_allocate(vertex_count, face_count, mesh, error));
+    gvc_sha256 *digest = gvc_sha256_begin();
+    gvc_result result = digest ? GVC_OK : gvc_fail_memory(error);
+    vertex_count = face_count = 0;
+    for (size_t c = 0; result == GVC_OK && c < decoder->shape.chart_count; c++) {
+        result = rebuild_chart(decoder, c, *mesh, vertex_count, face_count, digest, error);
+        vertex_count += decoder->weld[c].vertex_count;
+        face_count += gvc_rebuild_face_count(&decoder->weld[c]);
+    }
+    uint8_t got[32];
+    gvc_sha256_end(digest, got);
+    if (result == GVC_OK && memcmp(got, expected, 8) != 0) {
+        result = gvc_fail(error, GVC_ERROR_CORRUPT, "the decoded frame does not match its digest");
+    }
+    if (result != GVC_OK) gvc_mesh_destroy(mesh);
+    return result;
+}
+
+gvc_result gvc_decoder_frame(gvc_decoder *decoder, uint64_t frame, gvc_mesh **mesh,
+                             gvc_error *error) {
+    size_t fragment;
+    gvc_shape_frame facts;
+    *mesh = NULL;
+    GVC_TRY(gvc_reader_find(decoder->reader, frame, &fragment, error));
+    gvc_result result = seek_picture(decoder, fragment, frame, error);
+    if (result == GVC_OK) result = seek_shape(decoder, fragment, frame, &facts, error);
+    if (result != GVC_OK) forget_fragment(decoder);
+    if (result == GVC_OK) result = rebuild_frame(decoder, facts.digest, mesh, error);
+    return gvc_at_frame(error, result, (int64_t)frame);
+}

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: MIT */
+/** @file rate.h  Finds the coarsest quantiser that holds the error asked for. */
+#ifndef GVC_ENCODE_RATE_H
+#define GVC_ENCODE_RATE_H
+
+#include "encode/group.h"
+
+/** True for the frames of a group whose originals are kept to measure the error: `count` frames
+ * long. */
+bool gvc_rate_measures(size_t index, size_t count);
+
+/** Codes the group at options->crf or, if that is NaN, at the greatest rate factor whose measured
+ * RMS error is within the one asked for, and leaves the result in group->coded. `*crf` is a first
+ * guess on entry and what was used on return; `*rms` the measured error as a fraction of the
+ * diagonal; `*held` whether it is within the one asked for. The finest quantiser is used if none
+ * holds it. */
+gvc_result gvc_rate_code(gvc_group *group, const gvc_encode_options *options, double *crf,
+                         double *rms, bool *held, gvc_error *error);
+
+#endif

@@ -1,0 +1,353 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file encoder.c
+ * From meshes to a file. Frames are taken in batches: features of each frame by itself in parallel;
+ * the cut graph from frame to frame in order; the geometry images in parallel again. A group of
+ * frames is coded, measured and written as soon as it is full or its segment ends, so memory is
+ * bounded by one batch and the pictures of one group.
+ */
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "encode/group.h"
+#include "encode/rate.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define BATCH 16
+#define BLOCK 16 /* pictures are padded to whole macroblocks, so that no block spans two planes */
+#define FIRST_CRF 8.0
+#define LARGEST_CHOSEN 512
+/* Share of the error asked for that sampling alone may take when the image size is chosen; the rest
+ * is the quantiser's. */
+#define SAMPLING_SHARE 0.7
+#define SIZE_SAMPLES 10000
+
+typedef struct encoder {
+    const gvc_source *source;
+    const gvc_sink *sink;
+    gvc_encode_options options;
+    gvc_scan_frame *facts;
+    gvc_encode_report report;
+
+    gvc_frame_work work[BATCH];
+    uint64_t batch_first;
+    size_t batch_count;
+
+    gvc_tracker *tracker;
+    gvc_segment segment;
+    bool in_segment;
+    uint32_t size; /* of all images; 0 until chosen */
+    gvc_group group;
+    gvc_writer *writer; /* NULL until the first group is coded */
+    double crf;         /* of the last group: guess for the next */
+} encoder;
+
+static gvc_result check_options(const gvc_encode_options *o, const gvc_source *source,
+                                gvc_error *error) {
+    const char *wrong = NULL;
+    if (o->struct_size != sizeof *o) wrong = "encode options of another library version";
+    if (source->frame_count == 0) wrong = "there are no frames to encode";
+    if (o->image_size != 0 &&
+        (o->image_size < GVC_MIN_IMAGE_SIZE || o->image_size > GVC_MAX_IMAGE_SIZE)) {
+        wrong = "the image size must be from 16 to 2049";
+    }
+    if (!(o->max_rms > 0 && o->max_rms < 1) && !(o->max_rms_length > 0)) {
+        wrong = "the RMS error must be greater than 0 and less than the diagonal";
+    }
+    if (!isnan(o->crf) && !(o->crf >= -12 && o->crf <= 51)) wrong = "crf must be from -12 to 51";
+    if (o->gop == 0 || o->gop > 10000) wrong = "a group must have 1 to 10000 frames";
+    if (o->frame_rate_num == 0 || o->frame_rate_den == 0) wrong = "the frame rate must be positive";
+    if (!(o->persistence > 0 && o->persistence < 1)) wrong = "persistence must be between 0 and 1";
+    if (!(o->prior_weight >= 0)) wrong = "the prior's weight must not be negative";
+    return wrong ? gvc_fail(error, GVC_ERROR_ARGUMENT, "%s", wrong) : GVC_OK;
+}
+
+static void warn(const encoder *e, int64_t frame, const char *message) {
+    if (e->options.warn) e->options.warn(e->options.user, frame, message);
+}
+
+static gvc_result report_progress(const encoder *e, uint64_t done, gvc_error *error) {
+    if (e->options.progress &&
+        !e->options.progress(e->options.user, GVC_STAGE_ENCODE, done, e->source->frame_count)) {
+        return gvc_fail(error, GVC_ERROR_CANCELLED, "cancelled");
+    }
+    return GVC_OK;
+}
+
+/* -------------------------------------------------------------------------------------- output */
+
+static uint32_t round_up(uint32_t value, uint32_t unit) { return (value + unit - 1) / unit * unit; }
+
+static void describe(const encoder *e, gvc_config *config) {
+    const gvc_encode_options *o = &e->options;
+    *config = (gvc_config){.version_major = GVC_FORMAT_MAJOR,
+                           .version_minor = GVC_FORMAT_MINOR,
+                           .picture_width = e->group.layout.width,
+                           .plane_height = e->group.layout.plane_height,
+                           .image_size = e->size,
+                           .code_bits = GVC_LUMA_BITS,
+                           .code_shift = GVC_CODE_SHIFT,
+                           .frame_rate_num = o->frame_rate_num,
+                           .frame_rate_den = o->frame_rate_den,
+                           .declared_frames = e->source->frame_count};
+    memcpy(config->unit, o->unit, sizeof config->unit);
+    config->unit[sizeof config->unit - 1] = '\0';
+    snprintf(config->encoder, sizeof config->encoder, "libgvc %s", gvc_version());
+    if (isnan(o->crf)) {
+        snprintf(config->settings, sizeof config->settings,
+                 "size %u, max-rms %.6g%s, gop %u, persistence %.3g", e->size,
+                 o->max_rms_length > 0 ? o->max_rms_length : o->max_rms,
+                 o->max_rms_length > 0 ? " (length)" : "", o->gop, o->persistence);
+    } else {
+        snprintf(config->settings, sizeof config->settings,
+                 "size %u, crf %.4g, gop %u, persistence %.3g", e->size, o->crf, o->gop,
+                 o->persistence);
+    }
+}
+
+/* Codes, measures and writes the group; begins the file with the first one. */
+static gvc_result flush_group(encoder *e, gvc_error *error) {
+    gvc_group *group = &e->group;
+    if (group->count == 0) return GVC_OK;
+    double rms;
+    bool held;
+    GVC_TRY(gvc_rate_code(group, &e->options, &e->crf, &rms, &held, error));
+    if (isnan(e->options.crf) && !held) {
+        char message[160];
+        snprintf(message, sizeof message,
+                 "frames from %llu on reach an RMS error of %.3g of the diagonal at best, at %u "
+                 "samples a side",
+                 (unsigned long long)group->first_frame, rms, e->size);
+        if (!e->options.best_effort) {
+            gvc_result result = gvc_fail(error, GVC_ERROR_QUALITY, "%s", message);
+            return gvc_at_frame(error, result, (int64_t)group->first_frame);
+        }
+        warn(e, (int64_t)group->first_frame, message);
+    }
+    if (!e->writer) {
+        gvc_config config;
+        describe(e, &config);
+        GVC_TRY(gvc_writer_create(e->sink, &config, group->coded.config, group->coded.config_size,
+                                  &e->writer, error));
+    }
+    GVC_TRY(gvc_group_write(group, e->writer, error));
+    e->report.gop_count++;
+    e->report.frame_count += group->count;
+    e->report.worst_rms = fmax(e->report.worst_rms, rms);
+    e->report.mean_crf += e->crf * (double)group->count;
+    uint64_t done = group->first_frame + group->count;
+    gvc_group_clear(group);
+    return report_progress(e, done, error);
+}
+
+/* ------------------------------------------------------------------------------------ segments */
+
+/* Smallest image whose sampling error leaves room for the quantiser. Sizes are whole macroblocks: a
+ * larger image up to the next multiple costs nothing. */
+static gvc_result choose_size(encoder *e, const gvc_frame_work *work, gvc_error *error) {
+    static const uint32_t candidate[] = {48,  64,  80,  96,  112, 128, 144,           160,
+                                         192, 224, 256, 320, 384, 448, LARGEST_CHOSEN};
+    const gvc_encode_options *o = &e->options;
+    double asked = o->max_rms_length > 0 ? o->max_rms_length / work->diagonal : o->max_rms;
+    size_t low = 0, high = sizeof candidate / sizeof *candidate - 1; /* errors fall with the size */
+    while (low < high) {
+        size_t middle = (low + high) / 2;
+        double rms;
+        gvc_result result = gvc_segment_sampling_rms(&e->segment, work, candidate[middle],
+                                                     SIZE_SAMPLES, &rms, error);
+        if (result != GVC_OK && result != GVC_ERROR_MESH) return result;
+        if (result == GVC_OK && rms <= SAMPLING_SHARE * asked) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    e->size = candidate[low];
+    return GVC_OK;
+}
+
+/* A frame's halfedges as they were before a cut was tried. */
+static gvc_result restore_halfedges(gvc_frame_work *work, gvc_error *error) {
+    gvc_halfedges_free(&work->halfedges);
+    return gvc_halfedges_build(work->mesh, 0, &work->halfedges, error);
+}
+
+static gvc_result begin_segment(encoder *e, gvc_frame_work *work, gvc_error *error) {
+    if (e->in_segment) GVC_TRY(restore_halfedges(work, error));
+    gvc_segment_free(&e->segment);
+    e->in_segment = false;
+    GVC_TRY(gvc_segment_begin(e->source, &e->options, e->facts, e->report.segment_count,
+                              work->number, &e->segment, error));
+    GVC_TRY(gvc_tracker_start(e->tracker, &work->features, e->segment.extremum_count,
+                              &work->halfedges, &work->graph, error));
+    GVC_TRY(gvc_segment_layout(&e->segment, work, e->size, e->options.threads, error));
+    if (e->size == 0) {
+        e->size = e->options.image_size;
+        if (e->size == 0) GVC_TRY(choose_size(e, work, error));
+        gvc_picture_layout layout = {round_up(e->size, BLOCK), round_up(e->size, BLOCK)};
+        GVC_TRY(gvc_group_create(e->options.gop, layout, &e->group, error));
+        GVC_TRY(gvc_segment_resize(&e->segment, work, e->size, error));
+    }
+    e->report.segment_count++;
+    e->in_segment = true;
+    return GVC_OK;
+}
+
+/* Finds the cut of the next frame, in order. *continues is false, and nothing is kept, if a new
+ * segment must start with it. */
+static gvc_result follow(encoder *e, gvc_frame_work *work, bool *continues, gvc_error *error) {
+    *continues = false;
+    if (!e->in_segment || work->number >= e->segment.end_frame) return GVC_OK;
+    return gvc_tracker_next(e->tracker, &work->features, &work->halfedges, &work->graph, continues,
+                            error);
+}
+
+/* -------------------------------------------------------------------------------------- batches */
+
+static gvc_result analyse_one(void *user, size_t index, gvc_error *error) {
+    encoder *e = user;
+    e->work[index] = (gvc_frame_work){.number = e->batch_first + index};
+    return gvc_frame_analyse(&e->work[index], e->source, e->options.weld, error);
+}
+
+typedef struct image_context {
+    encoder *e;
+    size_t first; /* in the batch */
+} image_context;
+
+static gvc_result image_one(void *user, size_t index, gvc_error *error) {
+    const image_context *context = user;
+    encoder *e = context->e;
+    const gvc_segment *segment = &e->segment;
+    size_t samples = (size_t)3 * e->size * e->size;
+    size_t picture = (size_t)3 * e->group.layout.width * e->group.layout.plane_height;
+    double *image = gvc_alloc(samples, sizeof *image);
+    uint16_t *luma = gvc_alloc(picture, sizeof *luma);
+    gvc_result result = image && luma ? GVC_OK : gvc_fail_memory(error);
+    if (result == GVC_OK) {
+        result = gvc_frame_image(&e->work[context->first + index], &segment->sides, &segment->weld,
+                                 &segment->image_options, image, NULL, error);
+    }
+    if (result == GVC_OK) {
+        gvc_segment_quantise(segment, image, e->group.layout, luma);
+        e->group.frame[e->group.count + index].luma = luma;
+        luma = NULL;
+    }
+    free(image);
+    free(luma);
+    return result;
+}
+
+/* Turns frames first ... end - 1 of the batch, which have their cut, into pictures of the group. */
+static gvc_result add_images(encoder *e, size_t first, size_t end, gvc_error *error) {
+    gvc_group *group = &e->group;
+    image_context context = {.e = e, .first = first};
+    if (group->count == 0) {
+        group->segment = &e->segment;
+        group->first_frame = e->work[first].number;
+        GVC_TRY(gvc_segment_shape(&e->segment, &e->work[first].graph, &group->shape, error));
+    }
+    gvc_result result =
+        gvc_parallel_for(e->options.threads, end - first, image_one, &context, error);
+    if (result != GVC_OK) {
+        for (size_t i = 0; i < end - first; i++) {
+            free(group->frame[group->count + i].luma);
+            group->frame[group->count + i].luma = NULL;
+        }
+        return result;
+    }
+    uint64_t last = e->source->frame_count - group->first_frame;
+    size_t expected = last < group->capacity ? (size_t)last : group->capacity;
+    for (size_t i = first; i < end; i++) {
+        gvc_group_frame *frame = &group->frame[group->count];
+        if (gvc_rate_measures(group->count, expected)) {
+            frame->original = e->work[i].mesh;
+            e->work[i].mesh = NULL;
+        }
+        group->count++;
+        gvc_frame_free(&e->work[i]);
+    }
+    return group->count == group->capacity ? flush_group(e, error) : GVC_OK;
+}
+
+/* Cuts as many frames of the batch from `first` on as the segment and the group take, then makes
+ * their images. */
+static gvc_result encode_run(encoder *e, size_t first, size_t *end, gvc_error *error) {
+    bool continues;
+    GVC_TRY(follow(e, &e->work[first], &continues, error));
+    if (!continues) {
+        GVC_TRY(flush_group(e, error));
+        GVC_TRY(begin_segment(e, &e->work[first], error));
+    }
+    size_t room = e->group.capacity - e->group.count;
+    size_t i = first + 1;
+    while (i < e->batch_count && i - first < room) {
+        GVC_TRY(follow(e, &e->work[i], &continues, error));
+        if (!continues) break;
+        i++;
+    }
+    bool broken = i < e->batch_count && i - first < room;
+    *end = i;
+    GVC_TRY(add_images(e, first, i, error));
+    if (broken) {
+        /* frame i was tried already: it starts a segment */
+        GVC_TRY(flush_group(e, error));
+        e->segment.end_frame = e->work[i].number;
+    }
+    return GVC_OK;
+}
+
+static gvc_result encode_batch(encoder *e, gvc_error *error) {
+    gvc_result result = gvc_parallel_for(e->options.threads, e->batch_count, analyse_one, e, error);
+    size_t next = 0;
+    while (result == GVC_OK && next < e->batch_count) result = encode_run(e, next, &next, error);
+    for (size_t i = 0; i < e->batch_count; i++) gvc_frame_free(&e->work[i]);
+    return result;
+}
+
+static gvc_result encode_all(encoder *e, gvc_error *error) {
+    uint64_t total = e->source->frame_count;
+    GVC_TRY(gvc_scan(e->source, &e->options, e->facts, error));
+    GVC_TRY(report_progress(e, 0, error));
+    for (e->batch_first = 0; e->batch_first < total; e->batch_first += e->batch_count) {
+        uint64_t left = total - e->batch_first;
+        e->batch_count = left < BATCH ? (size_t)left : BATCH;
+        GVC_TRY(encode_batch(e, error));
+    }
+    GVC_TRY(flush_group(e, error));
+    return gvc_writer_finish(e->writer, error);
+}
+
+gvc_result gvc_encode(const gvc_source *source, const gvc_sink *sink,
+                      const gvc_encode_options *options, gvc_encode_report *report,
+                      gvc_error *error) {
+    GVC_TRY(check_options(options, source, error));
+    encoder *e = gvc_alloc(1, sizeof *e);
+    if (!e) return gvc_fail_memory(error);
+    *e = (encoder){.source = source, .sink = sink, .options = *options, .crf = FIRST_CRF};
+    gvc_tracker_options tracking = {
+        .prior_weight = options->prior_weight, .shortest_weight = 0.3, .lambda = 0.5};
+    if (isnan(e->options.curvature_weight)) {
+        e->options.curvature_weight = options->max_rms > 7e-4 ? 0 : 0.5;
+    }
+    e->facts = gvc_alloc((size_t)source->frame_count, sizeof *e->facts);
+    gvc_result result = e->facts ? GVC_OK : gvc_fail_memory(error);
+    if (result == GVC_OK) result = gvc_tracker_create(&tracking, &e->tracker, error);
+    if (result == GVC_OK) result = encode_all(e, error);
+    if (result == GVC_OK && report) {
+        *report = e->report;
+        report->byte_count = gvc_writer_byte_count(e->writer);
+        report->image_size = e->size;
+        report->mean_crf /= (double)report->frame_count;
+    }
+    gvc_writer_destroy(&e->writer);
+    gvc_group_free(&e->group);
+    gvc_segment_free(&e->segment);
+    gvc_tracker_destroy(&e->tracker);
+    free(e->facts);
+    free(e);
+    return result;
+}

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT */
+/** @file file.h  What an opened file is to the decoder: the parsed index and its input. */
+#ifndef GVC_FILE_H
+#define GVC_FILE_H
+
+#include "container/demux.h"
+#include "container/shape_record.h"
+
+struct gvc_reader {
+    gvc_io io;
+    gvc_read_options options;
+    gvc_demux demux;
+    int descriptor;       /**< of a file opened here, else -1 */
+    const uint8_t *bytes; /**< borrowed memory, or NULL */
+};
+
+/** Fragment that holds a frame. GVC_ERROR_ARGUMENT for a frame number past the end,
+ * GVC_ERROR_CORRUPT for one that lies in a damaged part. */
+gvc_result gvc_reader_find(const gvc_reader *reader, uint64_t frame, size_t *fragment,
+                           gvc_error *error);
+
+/** Shape and per-frame facts of a frame of a fragment. `shape` (freed by the caller) is read from
+ * the frame's own record or from the nearest one before it that does not say "as before"; `*owner`
+ * is that record's frame. */
+gvc_result gvc_reader_shape(const gvc_reader *reader, size_t fragment, uint64_t frame,
+                            gvc_shape *shape, gvc_shape_frame *facts, uint64_t *owner,
+                            gvc_error *error);
+
+#endif

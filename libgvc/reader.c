@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: MIT */
+/** @file reader.c  Opens a `.gvc` file from a path, memory or callbacks, and tells facts about it.
+ */
+#include "base/memory.h"
+#include "file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static gvc_result read_file_at(void *user, uint64_t offset, void *data, size_t size,
+                               gvc_error *error) {
+    const gvc_reader *reader = user;
+    uint8_t *next = data;
+    while (size > 0) {
+        ssize_t got = pread(reader->descriptor, next, size, (off_t)offset);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return gvc_fail(error, GVC_ERROR_IO, "cannot read: %s", strerror(errno));
+        if (got == 0) return gvc_fail(error, GVC_ERROR_TRUNCATED, "the file became shorter");
+        next += got;
+        offset += (uint64_t)got;
+        size -= (size_t)got;
+    }
+    return GVC_OK;
+}
+
+static gvc_result read_memory_at(void *user, uint64_t offset, void *data, size_t size,
+                                 gvc_error *error) {
+    const gvc_reader *reader = user;
+    if (offset > reader->io.size || size > reader->io.size - offset) {
+        return gvc_fail(error, GVC_ERROR_TRUNCATED, "the data end before they should");
+    }
+    memcpy(data, reader->bytes + offset, size);
+    return GVC_OK;
+}
+
+static gvc_result make_reader(const gvc_read_options *options, gvc_reader **reader,
+                              gvc_error *error) {
+    *reader = NULL;
+    if (options && options->struct_size != sizeof *options) {
+        return gvc_fail(error, GVC_ERROR_ARGUMENT, "read options of another library version");
+    }
+    gvc_reader *made = gvc_alloc(1, sizeof *made);
+    if (!made) return gvc_fail_memory(error);
+    made->descriptor = -1;
+    if (options) {
+        made->options = *options;
+    } else {
+        gvc_read_options_init(&made->options);
+    }
+    *reader = made;
+    return GVC_OK;
+}
+
+/* Parses through made->io and hands the reader out, or frees it. */
+static gvc_result finish_open(gvc_reader *made, gvc_reader **reader, gvc_error *error) {
+    gvc_result result = gvc_demux_open(&made->io, &made->options, &made->demux, error);
+    if (result == GVC_OK && made->demux.config.image_size > made->options.max_image_size) {
+        result = gvc_fail(error, GVC_ERROR_LIMIT, "images of %u samples a side exceed the limit %u",
+                          made->demux.config.image_size, made->options.max_image_size);
+    }
+    if (result != GVC_OK) {
+        gvc_reader_close(&made);
+        return result;
+    }
+    *reader = made;
+    return GVC_OK;
+}
+
+gvc_result gvc_reader_open_file(const char *path, const gvc_read_options *options,
+                                gvc_reader **reader, gvc_error *error) {
+    gvc_reader *made;
+    *reader = NULL;
+    GVC_TRY(make_reader(options, &made, error));
+    struct stat status;
+    made->descriptor = open(path, O_RDONLY);
+    if (made->descriptor < 0 || fstat(made->descriptor, &status) != 0) {
+        int reason = errno;
+        gvc_reader_close(&made);
+        return gvc_fail(error, GVC_ERROR_IO, "cannot open: %s", strerror(reason));
+    }
+    if (!S_ISREG(status.st_mode)) {
+        gvc_reader_close(&made);
+        return gvc_fail(error, GVC_ERROR_IO, "not a regular file");
+    }
+    made->io = (gvc_io){.user = made, .size = (uint64_t)status.st_size, .read = read_file_at};
+    return finish_open(made, reader, error);
+}
+
+gvc_result gvc_reader_open_memory(const void *data, size_t size, const gvc_read_options *options,
+                                  gvc_reader **reader, gvc_error *error) {
+    gvc_reader *made;
+    *reader = NULL;
+    GVC_TRY(make_reader(options, &made, error));
+    made->bytes = data;
+    made->io = (gvc_io){.user = made, .size = size, .read = read_memory_at};
+    return finish_open(made, reader, error);
+}
+
+gvc_result gvc_reader_open_io(const gvc_io *io, const gvc_read_options *options,
+                              gvc_reader **reader, gvc_error *error) {
+    gvc_reader *made;
+    *reader = NULL;
+    GVC_TRY(make_reader(options, &made, error));
+    made->io = *io;
+    return finish_open(made, reader, error);
+}
+
+void gvc_reader_close(gvc_reader **reader) {
+    if (!reader || !*reader) return;
+    gvc_demux_free(&(*reader)->demux);
+    if ((*reader)->descriptor >= 0) close((*reader)->descriptor);
+    free(*reader);
+    *reader = NULL;
+}
+
+void gvc_reader_info(const gvc_reader *reader, gvc_info *info) {
+    const gvc_config *config = &reader->demux.config;
+    *info = (gvc_info){
+        .format_version_major = config->version_major,
+        .format_version_minor = config->version_minor,
+        .frame_count = reader->demux.sample_count[GVC_TRACK_SHAPE],
+        .declared_count = config->declared_frames,
+        .byte_count = reader->io.size,
+        .image_size = config->image_size,
+        .picture_width = config->picture_width,
+        .picture_height = 3 * config->plane_height,
+        .frame_rate_num = config->frame_rate_num,
+        .frame_rate_den = config->frame_rate_den,
+        .gop_count = reader->demux.fragment_count,
+        .damage_count = reader->demux.damage_count,
+    };
+    snprintf(info->unit, sizeof info->unit, "%s", config->unit);
+    snprintf(info->encoder, sizeof info->encoder, "%s", config->encoder);
+}
+
+gvc_result gvc_reader_find(const gvc_reader *reader, uint64_t frame, size_t *fragment,
+                           gvc_error *error) {
+    const gvc_demux *demux = &reader->demux;
+    size_t low = 0, high = demux->fragment_count; /* fragments lie in order of time */
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (demux->fragment[middle].first_frame <= frame) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    gvc_result result = GVC_OK;
+    if (low == 0 ||
+        frame - demux->fragment[low - 1].first_frame >= demux->fragment[low - 1].frame_count) {
+        bool beyond = low == demux->fragment_count;
+        result = beyond ? gvc_fail(error, GVC_ERROR_ARGUMENT, "there is no such frame in the file")
+                        : gvc_fail(error, GVC_ERROR_CORRUPT, "the frame lies in a damaged part");
+        return gvc_at_frame(error, result, (int64_t)frame);
+    }
+    *fragment = low - 1;
+    return GVC_OK;
+}
+
+/* Index of a frame's shape sample: shape samples of a fragment lie in presentation order without
+ * gap. */
+static size_t shape_index(const gvc_fragment_entry *fragment, uint64_t frame) {
+    return fragment->first_sample[GVC_TRACK_SHAPE] + (size_t)(frame - fragment->first_frame);
+}
+
+static gvc_result read_record(const gvc_reader *reader, size_t index, gvc_buffer *buffer,
+                              gvc_shape *shape, gvc_shape_frame *facts, gvc_error *error) {
+    const gvc_demux *demux = &reader->demux;
+    const gvc_sample_entry *sample = &demux->sample[GVC_TRACK_SHAPE][index];
+    GVC_TRY(gvc_demux_read(demux, &reader->io, GVC_TRACK_SHAPE, index, buffer, error));
+    uint64_t limit = reader->options.max_memory;
+    gvc_result result = gvc_shape_record_read(
+        buffer->data, buffer->size, demux->config.picture_width, demux->config.plane_height,
+        limit > SIZE_MAX ? SIZE_MAX : (size_t)limit, shape, facts, error);
+    if (result != GVC_OK && error && error->offset == GVC_NO_OFFSET) {
+        error->offset = sample->offset;
+        snprintf(error->where, sizeof error->where, "mdat/shape record");
+    }
+    return result;
+}
+
+gvc_result gvc_reader_shape(const gvc_reader *reader, size_t fragment, uint64_t frame,
+                            gvc_shape *shape, gvc_shape_frame *facts, uint64_t *owner,
+                            gvc_error *error) {
+    const gvc_fragment_entry *entry = &reader->demux.fragment[fragment];
+    gvc_buffer buffer = {0};
+    gvc_shape_frame earlier;
+    uint64_t at = frame;
+    *shape = (gvc_shape){0};
+    gvc_result result = read_record(reader, shape_index(entry, at), &buffer, shape, facts, error);
+    bool same = result == GVC_OK && facts->same;
+    while (same && result == GVC_OK) {
+        if (at == entry->first_frame) {
+            result = gvc_fail(error, GVC_ERROR_CORRUPT,
+                              "the first shape record of a fragment says \"as before\"");
+            break;
+        }
+        at--;
+        result = read_record(reader, shape_index(entry, at), &buffer, shape, &earlier, error);
+        same = result == GVC_OK && earlier.same;
+    }
+    gvc_buffer_free(&buffer);
+    if (result != GVC_OK) gvc_shape_free(shape);
+    *owner = at;
+    return gvc_at_frame(error, result, (int64_t)frame);
+}
+
+gvc_result gvc_reader_frame_info(const gvc_reader *reader, uint64_t frame, gvc_frame_info *info,
+                                 gvc_error *error) {
+    size_t fragment;
+    uint64_t owner;
+    gvc_shape shape;
+    gvc_shape_frame facts;
+    *info = (gvc_frame_info){0};
+    GVC_TRY(gvc_reader_find(reader, frame, &fragment, error));
+    GVC_TRY(gvc_reader_shape(reader, fragment, frame, &shape, &facts, &owner, error));
+
+    const gvc_demux *demux = &reader->demux;
+    const gvc_fragment_entry *entry = &demux->fragment[fragment];
+    info->byte_count = demux->sample[GVC_TRACK_SHAPE][shape_index(entry, frame)].size;
+    for (size_t i = 0; i < entry->frame_count; i++) {
+        const gvc_sample_entry *sample =
+            &demux->sample[GVC_TRACK_GEOMETRY][entry->first_sample[GVC_TRACK_GEOMETRY] + i];
+        if (sample->presentation != frame) continue;
+        info->byte_count += sample->size;
+        info->keyframe = sample->sync;
+    }
+    info->segment = shape.segment;
+    info->chart_count = (uint32_t)shape.chart_count;
+    for (size_t c = 0; c < shape.chart_count; c++) {
+        const gvc_chart_shape *chart = &shape.chart[c];
+        info->genus += chart->genus;
+        info->node_count += (uint32_t)chart->node_count;
+        info->edge_count += (uint32_t)chart->edge_count;
+        for (size_t n = 0; n < chart->node_count; n++)
+            info->extremum_count += chart->node[n].kind == 1;
+    }
+    memcpy(info->digest, facts.digest, sizeof info->digest);
+    snprintf(info->source, sizeof info->source, "%s", facts.source);
+    gvc_shape_free(&shape);
+    return GVC_OK;
+}

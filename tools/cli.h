@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: MIT */
+/** @file cli.h  What the subcommands of gvc share: exit status, messages, numbers, output files,
+ * progress. */
+#ifndef GVC_TOOLS_CLI_H
+#define GVC_TOOLS_CLI_H
+
+#include "gvc/gvc.h"
+
+#include <stdio.h>
+
+enum { EXIT_DONE = 0, EXIT_DATA = 1, EXIT_USAGE = 2 };
+
+int cmd_encode(int argc, char **argv);
+int cmd_decode(int argc, char **argv);
+int cmd_info(int argc, char **argv);
+int cmd_verify(int argc, char **argv);
+int cmd_compare(int argc, char **argv);
+int cmd_synth(int argc, char **argv);
+int cmd_render(int argc, char **argv);
+
+/** "gvc COMMAND: <file> (frame n, byte m, box): message" to stderr; gives EXIT_DATA. `file` may be
+ * NULL; error->where is used as the file name when it names one. */
+int cli_fail(const char *command, const char *file, const gvc_error *error);
+/** "gvc COMMAND: message" and a hint at --help to stderr; gives EXIT_USAGE. */
+int cli_usage(const char *command, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/** A warning line to stderr. */
+void cli_warn(const char *command, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/** Whole-string numbers, independent of the locale; false if malformed or out of range. */
+bool cli_uint(const char *text, uint64_t least, uint64_t most, uint64_t *value);
+bool cli_double(const char *text, double *value);
+/** "0.1%" (*relative = true, value 0.001) or a length "0.5" (*relative = false). Positive. */
+bool cli_error_bound(const char *text, double *value, bool *relative);
+/** "30", "29.97", "30000/1001". */
+bool cli_rate(const char *text, uint32_t *num, uint32_t *den);
+/** "7", "3-9", "3-" over `count` frames; false if malformed or empty. */
+bool cli_range(const char *text, uint64_t count, uint64_t *first, uint64_t *last);
+
+/** True once SIGINT or SIGTERM came. */
+bool cli_interrupted(void);
+void cli_catch_signals(void);
+
+/** An output file that appears under its name only when whole. "-" is standard output. */
+typedef struct cli_output {
+    FILE *file;
+    char *path, *temporary;
+    bool overwrite, standard;
+} cli_output;
+
+/** False, with `error` filled, if the file exists and `overwrite` is not set, or cannot be made. */
+bool cli_output_open(cli_output *output, const char *path, bool overwrite, gvc_error *error);
+gvc_result cli_output_write(void *output, const void *data, size_t size, gvc_error *error);
+/** Gives the file its name. */
+bool cli_output_commit(cli_output *output, gvc_error *error);
+/** Removes what was written, unless it was committed. */
+void cli_output_discard(cli_output *output);
+
+/** Progress on stderr: in place on a terminal, silent otherwise. */
+typedef struct cli_progress {
+    const char *verb; /**< "encoding" */
+    bool enabled;
+    double started, last;
+} cli_progress;
+
+void cli_progress_begin(cli_progress *progress, const char *verb, bool quiet);
+void cli_progress_show(cli_progress *progress, uint64_t done, uint64_t total);
+void cli_progress_end(cli_progress *progress);
+
+/** Seconds of a clock that never goes back. */
+double cli_now(void);
+
+/** A string in JSON, quoted and escaped. */
+void cli_json_string(FILE *file, const char *text);
+
+#endif

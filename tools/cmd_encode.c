@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: MIT */
+/** @file cmd_encode.c  gvc encode. */
+#include "cli.h"
+#include "frames.h"
+
+#include <getopt.h>
+#include <math.h>
+#include <string.h>
+
+static const char usage[] =
+    "usage: gvc encode [options] FRAMES... -o capture.gvc\n"
+    "\n"
+    "FRAMES are OFF, OBJ or PLY files, a folder of them, a pattern such as scan/%04d.obj, or - for "
+    "one\n"
+    "frame on standard input. Each must be one closed, oriented, manifold surface.\n"
+    "\n"
+    "  -o, --output FILE     where to write; - is standard output\n"
+    "  -f, --force           replace FILE if it exists\n"
+    "  -e, --max-rms BOUND   RMS distance to hold in every group of frames: a share of the\n"
+    "                        bounding box's diagonal (0.05%), or a length in the unit of the "
+    "meshes\n"
+    "                        (0.5). Fails where it is out of reach. Default 0.1%, best effort\n"
+    "      --size S          samples a side of the geometry images, 16 to 2049 (default: by "
+    "--max-rms)\n"
+    "      --crf Q           x264's rate factor, -12 to 51, instead of --max-rms\n"
+    "      --gop N           frames in a group, the unit of random access (default 60)\n"
+    "  -r, --rate R          frames per second: 30, 29.97, 30000/1001 (default 30)\n"
+    "      --unit U          unit of the coordinates, recorded only: m, mm, ...\n"
+    "      --no-weld         do not merge equal positions (OBJ captures split along texture "
+    "seams)\n"
+    "      --any-order       take files as given: no check of numbers\n"
+    "  -j, --jobs N          threads (default: one per processor); never changes the output\n"
+    "  -q, --quiet           no progress, no summary\n";
+
+enum {
+    OPT_SIZE = 256,
+    OPT_CRF,
+    OPT_GOP,
+    OPT_UNIT,
+    OPT_NO_WELD,
+    OPT_ANY_ORDER,
+    OPT_PERSISTENCE,
+    OPT_PRIOR,
+    OPT_CURVATURE
+};
+
+typedef struct encode_arguments {
+    gvc_encode_options options;
+    const char *output;
+    bool force, quiet, any_order;
+    cli_progress progress;
+    bool scanning;
+} encode_arguments;
+
+static bool on_progress(void *user, gvc_stage stage, uint64_t done, uint64_t total) {
+    encode_arguments *arguments = user;
+    if (arguments->scanning && stage == GVC_STAGE_ENCODE) {
+        cli_progress_end(&arguments->progress);
+        cli_progress_begin(&arguments->progress, "encoding", arguments->quiet);
+        arguments->scanning = false;
+    }
+    cli_progress_show(&arguments->progress, done, total);
+    return !cli_interrupted();
+}
+
+static void on_warning(void *user, int64_t frame, const char *message) {
+    const encode_arguments *arguments = user;
+    if (arguments->progress.enabled) fputs("\r\x1b[K", stderr);
+    if (frame == GVC_NO_FRAME) {
+        cli_warn("encode", "%s", message);
+    } else {
+        cli_warn("encode", "frame %lld: %s", (long long)frame, message);
+    }
+}
+
+/* EXIT_DONE to go on, EXIT_USAGE for a bad option, -1 after --help. */
+static int set_option(encode_arguments *a, int option, const char *value) {
+    gvc_encode_options *o = &a->options;
+    uint64_t number;
+    bool relative;
+    double bound;
+    switch (option) {
+    case 'o':
+        a->output = value;
+        return EXIT_DONE;
+    case 'f':
+        a->force = true;
+        return EXIT_DONE;
+    case 'q':
+        a->quiet = true;
+        return EXIT_DONE;
+    case 'e':
+        if (!cli_error_bound(value, &bound, &relative)) break;
+        *(relative ? &o->max_rms : &o->max_rms_length) = bound;
+        o->best_effort = false;
+        return EXIT_DONE;
+    case OPT_SIZE:
+        if (!cli_uint(value, 16, 2049, &number)) break;
+        o->image_size = (uint32_t)number;
+        return EXIT_DONE;
+    case OPT_CRF:
+        if (!cli_double(value, &o->crf)) break;
+        return EXIT_DONE;
+    case OPT_GOP:
+        if (!cli_uint(value, 1, 10000, &number)) break;
+        o->gop = (uint32_t)number;
+        return EXIT_DONE;
+    case 'r':
+        if (!cli_rate(value, &o->frame_rate_num, &o->frame_rate_den)) break;
+        return EXIT_DONE;
+    case 'j':
+        if (!cli_uint(value, 0, 256, &number)) break;
+        o->threads = (unsigned)number;
+        return EXIT_DONE;
+    case OPT_UNIT:
+        if (strlen(value) >= sizeof o->unit) break;
+        snprintf(o->unit, sizeof o->unit, "%s", value);
+        return EXIT_DONE;
+    case OPT_PERSISTENCE:
+        if (!cli_double(value, &o->persistence)) break;
+        return EXIT_DONE;
+    case OPT_PRIOR:
+        if (!cli_double(value, &o->prior_weight)) break;
+        return EXIT_DONE;
+    case OPT_CURVATURE:
+        if (!cli_double(value, &o->curvature_weight)) break;
+        return EXIT_DONE;
+    case OPT_NO_WELD:
+        o->weld = false;
+        return EXIT_DONE;
+    case OPT_ANY_ORDER:
+        a->any_order = true;
+        return EXIT_DONE;
+    case 'h':
+        fputs(usage, stdout);
+        return -1;
+    default:
+        return cli_usage("encode", "bad options");
+    }
+    return cli_usage("encode", "'%s' is not a value this option takes", value);
+}
+
+static int parse(encode_arguments *a, int argc, char **argv) {
+    static const struct option options[] = {
+        {"output", required_argument, NULL, 'o'},
+        {"force", no_argument, NULL, 'f'},
+        {"quiet", no_argument, NULL, 'q'},
+        {"max-rms", required_argument, NULL, 'e'},
+        {"size", required_argument, NULL, OPT_SIZE},
+        {"crf", required_argument, NULL, OPT_CRF},
+        {"gop", required_argument, NULL, OPT_GOP},
+        {"rate", required_argument, NULL, 'r'},
+        {"unit", required_argument, NULL, OPT_UNIT},
+        {"no-weld", no_argument, NULL, OPT_NO_WELD},
+        {"any-order", no_argument, NULL, OPT_ANY_ORDER},
+        {"persistence", required_argument, NULL, OPT_PERSISTENCE},
+        {"prior", required_argument, NULL, OPT_PRIOR},
+        {"curvature", required_argument, NULL, OPT_CURVATURE},
+        {"jobs", required_argument, NULL, 'j'},
+        {"help", no_argument, NULL, 'h'},
+        {NULL, 0, NULL, 0}};
+    int option;
+    while ((option = getopt_long(argc, argv, "o:fqe:r:j:h", options, NULL)) != -1) {
+        int status = set_option(a, option, optarg);
+        if (status != EXIT_DONE) return status;
+    }
+    if (optind == argc) return cli_usage("encode", "name the frames to encode");
+    if (!a->output) return cli_usage("encode", "name the file to write with -o");
+    return EXIT_DONE;
+}
+
+static void summarise(const encode_arguments *a, const gvc_encode_report *report, double seconds) {
+    if (a->quiet) return;
+    fprintf(stderr,
+            "%llu frames, %llu bytes (%.0f a frame), %u x %u images, %llu segment%s, "
+            "RMS error %.4f%% of the diagonal at worst, %.1f s\n",
+            (unsigned long long)report->frame_count, (unsigned long long)report->byte_count,
+            (double)report->byte_count / (double)report->frame_count, report->image_size,
+            report->image_size, (unsigned long long)report->segment_count,
+            report->segment_count == 1 ? "" : "s", 100 * report->worst_rms, seconds);
+}
+
+static int encode(encode_arguments *a, frame_list *list) {
+    gvc_error error;
+    cli_output output;
+    gvc_encode_report report;
+    double started = cli_now();
+    gvc_error_init(&error);
+    if (!cli_output_open(&output, a->output, a->force, &error)) {
+        return cli_fail("encode", a->output, &error);
+    }
+    gvc_source source = frame_list_source(list);
+    gvc_sink sink = {.user = &output, .write = cli_output_write};
+    a->scanning = true;
+    cli_progress_begin(&a->progress, "reading", a->quiet);
+    gvc_result result = gvc_encode(&source, &sink, &a->options, &report, &error);
+    cli_progress_end(&a->progress);
+    int status = EXIT_DONE;
+    if (result != GVC_OK || !cli_output_commit(&output, &error)) {
+        status = cli_fail("encode", a->output, &error);
+    } else {
+        summarise(a, &report, cli_now() - started);
+    }
+    cli_output_discard(&output);
+    return status;
+}
+
+int cmd_encode(int argc, char **argv) {
+    encode_arguments arguments = {0};
+    frame_list list;
+    gvc_error error;
+    gvc_encode_options_init(&arguments.options);
+    arguments.options.best_effort = true;
+    arguments.options.progress = on_progress;
+    arguments.options.warn = on_warning;
+    arguments.options.user = &arguments;
+    int status = parse(&arguments, argc, argv);
+    if (status != EXIT_DONE) return status < 0 ? EXIT_DONE : status;
+    gvc_error_init(&error);
+    if (frame_list_make(argv + optind, argc - optind, arguments.any_order, &list, &error) !=
+        GVC_OK) {
+        return cli_fail("encode", NULL, &error);
+    }
+    status = encode(&arguments, &list);
+    frame_list_free(&list);
+    return status;
+}

@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: MIT */
+/** @file cmd_verify.c  gvc verify. */
+#include "cli.h"
+#include "frames.h"
+
+#include <getopt.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+
+static const char usage[] =
+    "usage: gvc verify capture.gvc\n"
+    "       gvc verify capture.gvc --against FRAMES...\n"
+    "\n"
+    "Decodes every frame, compares its digest, and checks that each surface is closed, manifold, "
+    "oriented and of the\n"
+    "genus declared; with --against also measures the distance to the capture. Names every frame "
+    "that is not good.\n"
+    "\n"
+    "      --against         the arguments after the file are the frames it was made from\n"
+    "      --any-order       take frames as given: no check of numbers\n"
+    "  -q, --quiet           say nothing of a good file\n";
+
+enum { OPT_AGAINST = 256, OPT_ANY_ORDER };
+
+typedef struct verify_arguments {
+    const char *input;
+    bool against, any_order, quiet;
+} verify_arguments;
+
+/* Errors so far, as fractions of each frame's diagonal. */
+typedef struct verify_totals {
+    uint64_t good, bad;
+    double mean_sum, square_sum, hausdorff;
+} verify_totals;
+
+static int parse(verify_arguments *a, int argc, char **argv) {
+    static const struct option options[] = {{"against", no_argument, NULL, OPT_AGAINST},
+                                            {"any-order", no_argument, NULL, OPT_ANY_ORDER},
+                                            {"quiet", no_argument, NULL, 'q'},
+                                            {"help", no_argument, NULL, 'h'},
+                                            {NULL, 0, NULL, 0}};
+    int option;
+    while ((option = getopt_long(argc, argv, "qh", options, NULL)) != -1) {
+        switch (option) {
+        case OPT_AGAINST:
+            a->against = true;
+            break;
+        case OPT_ANY_ORDER:
+            a->any_order = true;
+            break;
+        case 'q':
+            a->quiet = true;
+            break;
+        case 'h':
+            fputs(usage, stdout);
+            return -1;
+        default:
+            return cli_usage("verify", "bad options");
+        }
+    }
+    if (optind == argc) return cli_usage("verify", "name one .gvc file");
+    if (!a->against && optind + 1 != argc) {
+        return cli_usage("verify", "name one .gvc file, or frames after --against");
+    }
+    if (a->against && optind + 1 == argc) return cli_usage("verify", "name the frames");
+    a->input = argv[optind];
+    return EXIT_DONE;
+}
+
+static gvc_result wrong(gvc_error *error, uint64_t frame, const char *message) {
+    gvc_error_init(error);
+    error->code = GVC_ERROR_CORRUPT;
+    error->frame = (int64_t)frame;
+    snprintf(error->message, sizeof error->message, "%s", message);
+    return error->code;
+}
+
+static gvc_result check_surface(const gvc_reader *reader, uint64_t frame, const gvc_mesh *mesh,
+                                gvc_error *error) {
+    gvc_topology topology;
+    gvc_frame_info info;
+    gvc_result result = gvc_mesh_topology(mesh, &topology, error);
+    if (result == GVC_OK) result = gvc_reader_frame_info(reader, frame, &info, error);
+    if (result != GVC_OK) return result;
+    if (!topology.closed_manifold)
+        return wrong(error, frame, "the surface is not a closed manifold");
+    if (topology.genus != (int64_t)info.genus) {
+        return wrong(error, frame, "the surface is not of the genus declared");
+    }
+    return GVC_OK;
+}
+
+static gvc_result check_distance(const gvc_source *source, uint64_t frame, const gvc_mesh *mesh,
+                                 verify_totals *totals, gvc_error *error) {
+    gvc_mesh *original = NULL;
+    gvc_distance d;
+    gvc_result result = source->read(source->user, frame, &original, error);
+    if (result == GVC_OK) result = gvc_mesh_distance(original, mesh, 0, &d, error);
+    if (result == GVC_OK) {
+        double rms = fmax(d.rms[0], d.rms[1]) / d.diagonal;
+        totals->mean_sum += fmax(d.mean[0], d.mean[1]) / d.diagonal;
+        totals->square_sum += rms * rms;
+        totals->hausdorff = fmax(totals->hausdorff, fmax(d.maximum[0], d.maximum[1]) / d.diagonal);
+    }
+    gvc_mesh_destroy(&original);
+    return result;
+}
+
+static void verify_frames(const verify_arguments *a, const gvc_reader *reader, gvc_decoder *decoder,
+                          uint64_t count, const gvc_source *source, verify_totals *totals) {
+    cli_progress progress;
+    cli_progress_begin(&progress, "verifying", a->quiet);
+    for (uint64_t frame = 0; frame < count && !cli_interrupted(); frame++) {
+        gvc_mesh *mesh = NULL;
+        gvc_error error;
+        gvc_error_init(&error);
+        gvc_result result = gvc_decoder_frame(decoder, frame, &mesh, &error);
+        if (result == GVC_OK) result = check_surface(reader, frame, mesh, &error);
+        if (result == GVC_OK && source)
+            result = check_distance(source, frame, mesh, totals, &error);
+        gvc_mesh_destroy(&mesh);
+        if (result == GVC_OK) {
+            totals->good++;
+        } else {
+            totals->bad++;
+            (void)cli_fail("verify", a->input, &error);
+        }
+        cli_progress_show(&progress, frame + 1, count);
+    }
+    cli_progress_end(&progress);
+}
+
+static void print_totals(const verify_arguments *a, const verify_totals *totals, uint64_t count) {
+    if (a->quiet && totals->good == count) return;
+    printf("%s: %" PRIu64 " of %" PRIu64 " frames good", a->input, totals->good, count);
+    if (a->against && totals->good > 0) {
+        double n = (double)totals->good;
+        printf("; distance to the capture, %% of the diagonal: mean %.4f, RMS %.4f, Hausdorff %.3f",
+               100 * totals->mean_sum / n, 100 * sqrt(totals->square_sum / n),
+               100 * totals->hausdorff);
+    }
+    printf("\n");
+}
+
+static int verify(const verify_arguments *a, const gvc_reader *reader, const gvc_source *source) {
+    gvc_info info;
+    gvc_error error;
+    gvc_decoder *decoder = NULL;
+    verify_totals totals = {0};
+    gvc_reader_info(reader, &info);
+    uint64_t count =
+        info.declared_count > info.frame_count ? info.declared_count : info.frame_count;
+    gvc_error_init(&error);
+    if (source && source->frame_count != count) {
+        fprintf(stderr,
+                "gvc verify: %s: the file has %" PRIu64 " frames, the capture %" PRIu64 "\n",
+                a->input, count, source->frame_count);
+        return EXIT_DATA;
+    }
+    if (gvc_decoder_create(reader, &decoder, &error) != GVC_OK) {
+        return cli_fail("verify", a->input, &error);
+    }
+    verify_frames(a, reader, decoder, count, source, &totals);
+    gvc_decoder_destroy(&decoder);
+    print_totals(a, &totals, count);
+    return totals.good == count && info.damage_count == 0 ? EXIT_DONE : EXIT_DATA;
+}
+
+/* A damaged file is opened once more to name every frame it cost. */
+static gvc_result open_file(const verify_arguments *a, gvc_reader **reader, bool *damaged) {
+    gvc_read_options options;
+    gvc_error error;
+    gvc_error_init(&error);
+    gvc_read_options_init(&options);
+    *damaged = false;
+    gvc_result result = gvc_reader_open_file(a->input, &options, reader, &error);
+    if (result == GVC_OK) return GVC_OK;
+    (void)cli_fail("verify", a->input, &error);
+    if (result != GVC_ERROR_CORRUPT && result != GVC_ERROR_TRUNCATED) return result;
+    *damaged = true;
+    options.keep_going = true;
+    return gvc_reader_open_file(a->input, &options, reader, &error);
+}
+
+int cmd_verify(int argc, char **argv) {
+    verify_arguments arguments = {0};
+    frame_list list = {0};
+    gvc_source source;
+    gvc_reader *reader = NULL;
+    gvc_error error;
+    bool damaged;
+    int status = parse(&arguments, argc, argv);
+    if (status != EXIT_DONE) return status < 0 ? EXIT_DONE : status;
+    gvc_error_init(&error);
+    if (arguments.against) {
+        if (frame_list_make(argv + optind + 1, argc - optind - 1, arguments.any_order, &list,
+                            &error) != GVC_OK) {
+            return cli_fail("verify", NULL, &error);
+        }
+        source = frame_list_source(&list);
+    }
+    status = EXIT_DATA;
+    if (open_file(&arguments, &reader, &damaged) == GVC_OK) {
+        status = verify(&arguments, reader, arguments.against ? &source : NULL);
+        if (damaged) status = EXIT_DATA;
+    }
+    gvc_reader_close(&reader);
+    frame_list_free(&list);
+    return status;
+}

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: MIT */
+/** @file main.c  The program gvc: finds the subcommand. */
+#include "cli.h"
+
+#include <string.h>
+
+static const struct {
+    const char *name;
+    int (*run)(int argc, char **argv);
+    const char *summary;
+} commands[] = {
+    {"encode", cmd_encode, "turn a capture (OFF, OBJ or PLY frames) into one .gvc file"},
+    {"decode", cmd_decode, "get closed meshes back, all frames or some"},
+    {"info", cmd_info, "tell what is in a .gvc file"},
+    {"verify", cmd_verify, "prove a .gvc file good, or measure it against its capture"},
+    {"compare", cmd_compare, "sizes and errors beside zipped OFF and Draco"},
+    {"synth", cmd_synth, "make a sample capture"},
+    {"render", cmd_render, "make pictures: surfaces, cut graphs, geometry images"},
+};
+
+static void print_usage(FILE *file) {
+    fprintf(file, "usage: gvc COMMAND ...\n\n");
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
+        fprintf(file, "  %-8s %s\n", commands[i].name, commands[i].summary);
+    }
+    fprintf(
+        file,
+        "\n'gvc COMMAND --help' tells more. Exit status: 0 done, 1 bad data or I/O, 2 usage.\n");
+}
+
+int main(int argc, char **argv) {
+    if (argc < 2) {
+        print_usage(stderr);
+        return EXIT_USAGE;
+    }
+    if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) {
+        print_usage(stdout);
+        return EXIT_DONE;
+    }
+    if (strcmp(argv[1], "--version") == 0) {
+        printf("gvc %s\n", gvc_version());
+        return EXIT_DONE;
+    }
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
+        if (strcmp(argv[1], commands[i].name) != 0) continue;
+        cli_catch_signals();
+        int status = commands[i].run(argc - 1, argv + 1);
+        if (fflush(stdout) != 0 && status == EXIT_DONE) status = EXIT_DATA;
+        return status;
+    }
+    fprintf(stderr, "gvc: there is no command '%s'\n\n", argv[1]);
+    print_usage(stderr);
+    return EXIT_USAGE;
+}
