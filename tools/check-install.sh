@@ -17,7 +17,7 @@ sed -i "s|^prefix=.*|prefix=$prefix|" "$library/pkgconfig/gvc.pc"
 cc -std=c11 -Wall -Wextra -Werror tools/example/first_frame.c -o "$work/by_pkgconfig" \
   $(PKG_CONFIG_PATH="$library/pkgconfig" pkg-config --cflags --libs gvc)
 
-"$prefix/bin/gvc" synth --frames 3 --vertices 1000 -o "$work/frames/%04d.ply" -q
+"$prefix/bin/gvc" synth --frames 3 --vertices 2000 -o "$work/frames/%04d.ply" -q
 "$prefix/bin/gvc" encode "$work/frames" -o "$work/sample.gvc" -q
 for program in "$work/cmake/first_frame" "$work/by_pkgconfig"; do
   "$program" "$work/sample.gvc" "$work/first.ply"

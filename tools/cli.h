@@ -26,6 +26,10 @@ int cli_usage(const char *command, const char *format, ...) __attribute__((forma
 /** A warning line to stderr. */
 void cli_warn(const char *command, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/** Makes the folder that `path` lies in, if it is missing; EXIT_DONE or, with a message, EXIT_DATA.
+ */
+int cli_make_folder(const char *command, const char *path);
+
 /** Whole-string numbers, independent of the locale; false if malformed or out of range. */
 bool cli_uint(const char *text, uint64_t least, uint64_t most, uint64_t *value);
 bool cli_double(const char *text, double *value);

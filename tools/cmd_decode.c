@@ -3,11 +3,9 @@
 #include "cli.h"
 #include "frames.h"
 
-#include <errno.h>
 #include <getopt.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 static const char usage[] =
@@ -110,16 +108,9 @@ static int check_output(const decode_arguments *a) {
         return cli_usage("decode",
                          "the output needs one %%d for the frame number, as in out/%%04d.obj");
     }
-    char *slash = strrchr(path, '/');
-    if (slash && slash != path) {
-        *slash = '\0';
-        if (mkdir(path, 0777) != 0 && errno != EEXIST) {
-            cli_usage("decode", "cannot make the folder %s: %s", path, strerror(errno));
-            free(path);
-            return EXIT_DATA;
-        }
-    }
+    int status = cli_make_folder("decode", path);
     free(path);
+    if (status != EXIT_DONE) return status;
     for (uint64_t f = a->first; !a->force && f <= a->last; f++) {
         path = frame_path(a, f);
         bool there = path && strcmp(path, "-") != 0 && access(path, F_OK) == 0;

@@ -1,18 +1,24 @@
 # gvc_compare: what `gvc compare` measures with. Include from tools/CMakeLists.txt and link the
-# program with gvc_compare and libgvc. Draco has a C++ interface only; this is the one place where
-# C++ is compiled.
+# program with gvc_compare, which brings libgvc and its base layer (buffers, threads, text). Draco
+# has a C++ interface only; this is the one place where C++ is compiled.
 enable_language(CXX)
 set(CMAKE_CXX_STANDARD 17)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 
 find_package(PkgConfig REQUIRED)
+find_package(Threads REQUIRED)
+# Imported targets are known per folder: gvc_base needs libavutil's here too.
+pkg_check_modules(AVCODEC REQUIRED IMPORTED_TARGET libavcodec libavutil)
 pkg_check_modules(LIBZIP REQUIRED IMPORTED_TARGET libzip)
 pkg_check_modules(DRACO REQUIRED IMPORTED_TARGET draco)
 
 add_library(gvc_compare OBJECT
-  compare.c compare_draco.cc compare_gvc.c compare_print.c compare_zip.c)
+  "${CMAKE_CURRENT_LIST_DIR}/compare.c"
+  "${CMAKE_CURRENT_LIST_DIR}/compare_draco.cc"
+  "${CMAKE_CURRENT_LIST_DIR}/compare_gvc.c"
+  "${CMAKE_CURRENT_LIST_DIR}/compare_print.c"
+  "${CMAKE_CURRENT_LIST_DIR}/compare_zip.c")
 target_include_directories(gvc_compare PUBLIC
-  "${CMAKE_CURRENT_SOURCE_DIR}"
-  "${PROJECT_SOURCE_DIR}/libgvc/include" "${PROJECT_SOURCE_DIR}/libgvc")
-target_link_libraries(gvc_compare PUBLIC PkgConfig::LIBZIP PkgConfig::DRACO)
+  "${CMAKE_CURRENT_LIST_DIR}" "${PROJECT_SOURCE_DIR}/libgvc/include" "${PROJECT_SOURCE_DIR}/libgvc")
+target_link_libraries(gvc_compare PUBLIC gvc gvc_base PkgConfig::LIBZIP PkgConfig::DRACO)

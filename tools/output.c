@@ -110,3 +110,19 @@ void cli_output_discard(cli_output *output) {
     free(output->path);
     *output = (cli_output){0};
 }
+
+int cli_make_folder(const char *command, const char *path) {
+    const char *slash = strrchr(path, '/');
+    if (!slash || slash == path) return EXIT_DONE;
+    char *folder = strdup(path);
+    if (!folder) return EXIT_DATA;
+    folder[slash - path] = '\0';
+    int status = EXIT_DONE;
+    if (mkdir(folder, 0777) != 0 && errno != EEXIST) {
+        fprintf(stderr, "gvc %s: %s: cannot make the folder: %s\n", command, folder,
+                strerror(errno));
+        status = EXIT_DATA;
+    }
+    free(folder);
+    return status;
+}

@@ -8,10 +8,12 @@
 #include "mesh/mesh.h"
 #include "synth_figure.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 
 #define MAX_ATTEMPTS 40
+#define LEAST_VERTICES 1500u
+#define LEAST_RING_VERTICES 500u
+#define MAX_VERTICES 1000000u
 #define MAX_MENDS 10
 #define BLOCK 6 /* nodes per side of a block that is skipped if the surface is far from it */
 /* Vertices of a surface net per square of the grid's step, and the area of the figure. */
@@ -124,13 +126,14 @@ static bool mend_face(grid *g, size_t node, size_t u, size_t v) {
     return true;
 }
 
-/* True if two opposite corners of a cell differ from all others: two sheets would share a vertex. */
+/* True if two opposite corners of a cell differ from all others: two sheets would share a vertex.
+ */
 static bool mend_cell(grid *g, size_t node) {
     size_t corner[8];
     unsigned inside = 0;
     for (unsigned c = 0; c < 8; c++) {
-        corner[c] = node + (c & 1) * g->stride[0] + (c >> 1 & 1) * g->stride[1] +
-                    (c >> 2) * g->stride[2];
+        corner[c] =
+            node + (c & 1) * g->stride[0] + (c >> 1 & 1) * g->stride[1] + (c >> 2) * g->stride[2];
         inside |= (g->value[corner[c]] < 0 ? 1u : 0u) << c;
     }
     for (unsigned c = 0; c < 4; c++) {
@@ -296,7 +299,8 @@ static gvc_result polygonise(const figure *f, const synth_options *options, uint
     gvc_result result;
     GVC_CHECK(place_grid(&g, f, options, frame, attempt, error));
     fill_grid(&g, f);
-    for (unsigned pass = 0; pass < MAX_MENDS && mend_grid(&g); pass++) {}
+    for (unsigned pass = 0; pass < MAX_MENDS && mend_grid(&g); pass++) {
+    }
     GVC_CHECK(make_vertices(&g, &n, error));
     GVC_CHECK(make_quads(&g, &n, error));
     GVC_CHECK(relax(&n, f, error));
@@ -315,10 +319,11 @@ static gvc_result check_options(const synth_options *options, uint64_t frame, gv
         return gvc_fail(error, GVC_ERROR_ARGUMENT, "the figure has no genus %u, at most %u",
                         options->genus, SYNTH_MAX_GENUS);
     }
-    if (options->vertex_count < 1500 || options->vertex_count > 1000000) {
+    size_t least = LEAST_VERTICES + LEAST_RING_VERTICES * options->genus;
+    if (options->vertex_count < least || options->vertex_count > MAX_VERTICES) {
         return gvc_fail(error, GVC_ERROR_ARGUMENT,
-                        "%zu vertices asked for; between 1500 and 1000000 are possible",
-                        options->vertex_count);
+                        "%zu vertices asked for; with genus %u between %zu and %u are possible",
+                        options->vertex_count, options->genus, least, MAX_VERTICES);
     }
     if (!(options->frame_rate > 0) || !isfinite(options->frame_rate)) {
         return gvc_fail(error, GVC_ERROR_ARGUMENT, "frame rate %g is not positive",
@@ -337,17 +342,13 @@ gvc_result synth_frame(const synth_options *options, uint64_t frame, gvc_mesh **
     GVC_TRY(check_options(options, frame, error));
     figure f;
     figure_pose(&f, (double)frame / options->frame_rate, options->genus, options->seed);
-    /* A surface net is not a manifold where the surface crosses a face of the grid twice: then the
+    /* Where the surface is finer than the grid, mending may have changed its topology: then the
      * grid moves. */
     for (unsigned attempt = 0; attempt < MAX_ATTEMPTS; attempt++) {
         gvc_mesh *trial = NULL;
         gvc_topology topology;
         gvc_result result = polygonise(&f, options, frame, attempt, &trial, error);
         if (result == GVC_OK) result = gvc_mesh_topology(trial, &topology, error);
-        if (getenv("SYND") && result == GVC_OK)
-            printf("frame %d attempt %u nme %d nmv %d comp %d genus %d\n", (int)frame, attempt,
-                   (int)topology.nonmanifold_edge_count, (int)topology.nonmanifold_vertex_count,
-                   (int)topology.component_count, (int)topology.genus);
         bool good = result == GVC_OK && topology.closed_manifold && topology.component_count == 1 &&
                     topology.genus == (int64_t)options->genus;
         if (good) {

@@ -11,7 +11,7 @@
 typedef struct synth_options {
     uint64_t frame_count;
     unsigned genus;      /**< 0 .. SYNTH_MAX_GENUS: number of rings on the figure */
-    size_t vertex_count; /**< about so many; 1500 .. 1000000 */
+    size_t vertex_count; /**< about so many; 1500 + 500 * genus .. 1000000 */
     uint64_t seed;       /**< another seed, another dance and other meshes */
     double frame_rate;   /**< frames per second */
 } synth_options;

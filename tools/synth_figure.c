@@ -6,7 +6,7 @@
 /* Width of the rounding where limbs meet. */
 #define BLEND 0.016
 /* Folds of cloth: amplitude, and wave numbers along and around a limb. */
-#define FOLD 0.0022
+#define FOLD 0.0012
 
 double figure_random(uint64_t seed, uint64_t stream, uint64_t index) {
     uint64_t z = seed * UINT64_C(0xd1342543de82ef95) + stream * UINT64_C(0x2545f4914f6cdd1d) +

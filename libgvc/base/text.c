@@ -3,6 +3,7 @@
 #include "base/text.h"
 
 #include <float.h>
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -238,8 +239,8 @@ size_t gvc_format_uint(char *text, uint64_t value) {
     return length;
 }
 
-/** Writes 0.d1d2d3... * 10^(exponent + 1) as printf's %.{precision}g would; `digits` has no
- * trailing zeros that matter and 10^(count-1) <= digits < 10^count. */
+/** Writes d.ddd * 10^exponent, where the `count` figures of `digits` are the d, as printf's
+ *  %.{precision}g would: without zeros at the end. */
 static size_t emit(char *text, bool negative, uint64_t digits, int count, int exponent,
                    int precision) {
     char figure[24], *p = text;
@@ -272,61 +273,6 @@ static size_t emit(char *text, bool negative, uint64_t digits, int count, int ex
     return (size_t)(p - text);
 }
 
-/** Whether digits * 10^scale, read as a double or as a float, becomes `value`. A double half-way
- *  between two floats is refused: the text may be on either side of it. */
-static bool gives_float(double read_back, float value) {
-    uint64_t bits;
-    memcpy(&bits, &read_back, sizeof bits);
-    const uint64_t dropped = (UINT64_C(1) << (DBL_MANT_DIG - FLT_MANT_DIG)) - 1;
-    bool half_way = (bits & dropped) == dropped / 2 + 1;
-    return (float)read_back == value && !half_way;
-}
-
-#ifdef HAVE_WIDE
-/** The common range of coordinates, 1e-6 <= value < 1e9, in integers. Returns 0 outside it. */
-static size_t format_float(char *text, float value) {
-    float magnitude = fabsf(value);
-    if (!(magnitude >= 1e-6f && magnitude < 1e9f)) return 0;
-    int exponent = 8;
-    while (exponent > 0 && magnitude < exact_power[exponent]) exponent--;
-    if (magnitude < 1) {
-        /* No float lies between a negative power of ten and the double nearest to it. */
-        exponent = -1;
-        while (magnitude < 1 / exact_power[-exponent]) exponent--;
-    }
-    int binary;
-    uint64_t mantissa = (uint64_t)ldexpf(frexpf(magnitude, &binary), FLT_MANT_DIG);
-    binary -= FLT_MANT_DIG; /* magnitude = mantissa * 2^binary */
-    for (int precision = 6; precision <= 9; precision++) {
-        /* digits = magnitude * 10^scale, rounded to nearest even as printf does */
-        int scale = precision - 1 - exponent;
-        wide numerator = mantissa, denominator = 1;
-        if (scale > 0) numerator *= power_of_ten[scale];
-        if (binary > 0) numerator <<= binary;
-        uint64_t digits;
-        wide rest;
-        if (scale >= 0 && binary <= 0) {
-            digits = (uint64_t)(numerator >> -binary);
-            denominator <<= -binary;
-            rest = numerator & (denominator - 1);
-        } else {
-            if (scale < 0) denominator *= power_of_ten[-scale];
-            if (binary < 0) denominator <<= -binary;
-            digits = (uint64_t)(numerator / denominator);
-            rest = numerator % denominator;
-        }
-        if (rest * 2 > denominator || (rest * 2 == denominator && (digits & 1))) digits++;
-        double read_back =
-            scale >= 0 ? (double)digits / exact_power[scale] : (double)digits * exact_power[-scale];
-        if (!gives_float(read_back, magnitude)) continue;
-        bool carried = digits == power_of_ten[precision];
-        if (carried) digits /= 10;
-        return emit(text, value < 0, digits, precision, exponent + carried, precision);
-    }
-    return 0;
-}
-#endif
-
 /** Digits and exponent of %.{precision-1}e, whatever the locale's decimal point is. */
 static uint64_t print_digits(double magnitude, int precision, int *exponent) {
     char text[64];
@@ -342,25 +288,88 @@ static uint64_t print_digits(double magnitude, int precision, int *exponent) {
     return digits;
 }
 
-static size_t format_slowly(char *text, double value, bool is_float) {
-    double magnitude = fabs(value);
-    /* Fifteen digits always survive, so a double that fewer digits tell is also told by these, with
-     * zeros at the end. */
-    int first = is_float ? 6 : 15, last = is_float ? 9 : 17;
-    for (int precision = first;; precision++) {
-        int exponent;
-        uint64_t digits = print_digits(magnitude, precision, &exponent);
-        decimal number = {.mantissa = digits, .digits = precision};
-        char figure[24];
-        number.first = figure;
-        number.last = figure + gvc_format_uint(figure, digits);
-        number.exponent = exponent - (precision - 1);
-        double read_back = convert(&number);
-        bool same = is_float ? gives_float(read_back, (float)magnitude) : read_back == magnitude;
-        if (!same && precision < last) continue;
+/** The exponent of the leading digit, for the common range of coordinates; INT_MIN outside it. */
+static int leading_exponent(double magnitude) {
+#ifdef HAVE_WIDE
+    if (!(magnitude >= 1e-6 && magnitude < 1e9)) return INT_MIN;
+    int exponent = 8;
+    while (exponent > 0 && magnitude < exact_power[exponent]) exponent--;
+    /* 1 / 10^n is the double nearest to 10^-n, so that one belongs to n even if it is less. */
+    while (exponent <= 0 && magnitude < 1 / exact_power[-exponent]) exponent--;
+    return exponent;
+#else
+    (void)magnitude;
+    return INT_MIN;
+#endif
+}
+
+/** The same as print_digits in integers: magnitude * 10^(precision - 1 - leading), rounded to the
+ *  nearest, ties to even. */
+static uint64_t round_digits(double magnitude, int leading, int precision, int *exponent) {
+#ifdef HAVE_WIDE
+    int binary, scale = precision - 1 - leading; /* -3 to 22 */
+    wide numerator = (wide)ldexp(frexp(magnitude, &binary), DBL_MANT_DIG);
+    int shift = DBL_MANT_DIG - binary; /* magnitude = numerator / 2^shift; 23 to 72 */
+    wide denominator = (wide)1 << shift, rest;
+    uint64_t digits;
+    if (scale >= 0) {
+        int part = scale < 19 ? scale : 19;
+        numerator = numerator * power_of_ten[part] * power_of_ten[scale - part];
+        digits = (uint64_t)(numerator >> shift);
+        rest = numerator & (denominator - 1);
+    } else {
+        denominator *= power_of_ten[-scale];
+        digits = (uint64_t)(numerator / denominator);
+        rest = numerator % denominator;
+    }
+    if (2 * rest > denominator || (2 * rest == denominator && (digits & 1))) digits++;
+    bool carried = digits == power_of_ten[precision];
+    *exponent = leading + carried;
+    return carried ? digits / 10 : digits;
+#else
+    (void)leading;
+    return print_digits(magnitude, precision, exponent);
+#endif
+}
+
+/** Whether digits * 10^exponent reads as the same double or, if `is_float`, as the same float. */
+static bool reads_back(uint64_t digits, int precision, int exponent, double magnitude,
+                       bool is_float) {
+    char figure[48];
+    decimal number = {.mantissa = digits, .digits = precision, .exponent = exponent};
+    number.first = figure;
+    number.last = figure + gvc_format_uint(figure, digits);
+    double again = convert(&number);
+    if (!is_float) return again == magnitude;
+    uint64_t bits;
+    memcpy(&bits, &again, sizeof bits);
+    const uint64_t dropped = (UINT64_C(1) << (DBL_MANT_DIG - FLT_MANT_DIG)) - 1;
+    bool half_way = (bits & dropped) == dropped / 2 + 1;
+    if (!half_way && fabs(again) >= (double)FLT_MIN) return (float)again == (float)magnitude;
+    /* The decimal may lie on either side of the double half-way between two floats. */
+    char *p = figure + gvc_format_uint(figure, digits);
+    *p++ = 'e';
+    if (exponent < 0) *p++ = '-';
+    gvc_format_uint(p, (uint64_t)(exponent < 0 ? -exponent : exponent));
+    return strtof(figure, NULL) == (float)magnitude;
+}
+
+static size_t format_magnitude(char *text, bool negative, double magnitude, bool is_float) {
+    /* Fifteen digits survive in a normal double, so one that fewer digits tell is also told by
+     * these, with zeros at the end. */
+    int precision = is_float || magnitude < DBL_MIN ? 6 : 15, last = is_float ? 9 : 17, exponent;
+    int leading = leading_exponent(magnitude);
+    for (;; precision++) {
+        uint64_t digits = leading == INT_MIN
+                              ? print_digits(magnitude, precision, &exponent)
+                              : round_digits(magnitude, leading, precision, &exponent);
+        if (precision < last &&
+            !reads_back(digits, precision, exponent - (precision - 1), magnitude, is_float))
+            continue;
         int needed = precision;
-        for (; !is_float && needed > 6 && digits % 10 == 0; needed--) digits /= 10;
-        return emit(text, value < 0, digits, needed, exponent, needed);
+        uint64_t kept = digits;
+        for (; needed > 6 && kept % 10 == 0; needed--) kept /= 10;
+        return emit(text, negative, kept, needed, exponent, needed);
     }
 }
 
@@ -373,9 +382,5 @@ size_t gvc_format_double(char *text, double value) {
         return strlen(text);
     }
     bool is_float = fabs(value) <= (double)FLT_MAX && (double)(float)value == value;
-#ifdef HAVE_WIDE
-    size_t length = is_float ? format_float(text, (float)value) : 0;
-    if (length) return length;
-#endif
-    return format_slowly(text, value, is_float);
+    return format_magnitude(text, value < 0, fabs(value), is_float);
 }

@@ -155,6 +155,5 @@ void gvc_box_write_crc(gvc_buffer *buffer, size_t begin, uint32_t crc) {
     gvc_write_u32(buffer, 0);
     gvc_box_end(buffer, box);
     if (buffer->failed) return;
-    gvc_patch_u32(buffer, crc_position,
-                  gvc_crc32(crc, buffer->data + begin, crc_position - begin));
+    gvc_patch_u32(buffer, crc_position, gvc_crc32(crc, buffer->data + begin, crc_position - begin));
 }

@@ -1,0 +1,193 @@
+/* SPDX-License-Identifier: MIT */
+/** @file demux.c  Walks over the top-level boxes of a file; reads samples. */
+#include "container/demux.h"
+
+#include "base/digest.h"
+#include "base/memory.h"
+#include "container/parser.h"
+
+#include <stdlib.h>
+
+/* Checksumming candidates while scanning may cost this many times the file. */
+#define SCAN_BUDGET_FILES 4u
+
+void gvc_demux_free(gvc_demux *demux) {
+    for (unsigned kind = 0; kind < GVC_TRACK_KINDS; kind++) free(demux->sample[kind]);
+    free(demux->fragment);
+    free(demux->damage);
+    free(demux->avc_config);
+    *demux = (gvc_demux){0};
+}
+
+/** ftyp must come first; `*has_brand` tells whether it names gvc1. */
+static gvc_result parse_ftyp(gvc_parser *parser, uint64_t *end, bool *has_brand, gvc_error *error) {
+    uint8_t bytes[8];
+    gvc_box ftyp;
+    *has_brand = false;
+    GVC_TRY(gvc_parser_read(parser, 0, bytes, sizeof bytes, error));
+    gvc_cursor cursor = gvc_cursor_make(bytes + 4, 4);
+    if (gvc_read_u32(&cursor) != GVC_BOX_FTYP) {
+        gvc_fail(error, GVC_ERROR_CORRUPT, "not a .gvc file: it does not begin with ftyp");
+        if (error) error->offset = 0;
+        return GVC_ERROR_CORRUPT;
+    }
+    GVC_TRY(gvc_parser_header(parser, 0, &ftyp, error));
+    GVC_TRY(gvc_parser_load(parser, &ftyp, error));
+    uint32_t major = gvc_read_u32(&ftyp.content);
+    gvc_skip(&ftyp.content, 4); /* minor version */
+    GVC_TRY(gvc_box_check(&ftyp, error));
+    *has_brand = major == GVC_BRAND;
+    while (gvc_cursor_left(&ftyp.content) >= 4) {
+        if (gvc_read_u32(&ftyp.content) == GVC_BRAND) *has_brand = true;
+    }
+    *end = ftyp.size;
+    return GVC_OK;
+}
+
+/** ftyp, boxes not known, moov. */
+static gvc_result parse_head(gvc_parser *parser, uint64_t *end, gvc_error *error) {
+    bool has_brand;
+    GVC_TRY(parse_ftyp(parser, end, &has_brand, error));
+    for (;;) {
+        gvc_box box;
+        GVC_TRY(gvc_parser_header(parser, *end, &box, error));
+        *end += box.size;
+        switch (box.type) {
+        case GVC_BOX_MOOV:
+            return gvc_parse_moov(parser, &box, has_brand, error);
+        case GVC_BOX_FTYP:
+        case GVC_BOX_MOOF:
+        case GVC_BOX_MDAT:
+        case GVC_BOX_MFRA:
+            return gvc_box_fail(&box, error, has_brand ? GVC_ERROR_CORRUPT : GVC_ERROR_UNSUPPORTED,
+                                "moov must come before this box%s",
+                                has_brand ? "" : ", and the file lacks the brand gvc1");
+        default:
+            break;
+        }
+    }
+}
+
+/** One top-level box after moov, or a moof with its mdat. */
+static gvc_result parse_unit(gvc_parser *parser, uint64_t *end, gvc_error *error) {
+    gvc_box box;
+    GVC_TRY(gvc_parser_header(parser, *end, &box, error));
+    if (parser->closed) {
+        return gvc_box_fail(&box, error, GVC_ERROR_CORRUPT,
+                            "the index (mfra) must be the end of the file");
+    }
+    uint64_t box_end = box.offset + box.size;
+    switch (box.type) {
+    case GVC_BOX_MOOF:
+        GVC_TRY(gvc_parse_fragment(parser, &box, &box_end, error));
+        break;
+    case GVC_BOX_MFRA:
+        GVC_TRY(gvc_parse_index(parser, &box, error));
+        break;
+    case GVC_BOX_MDAT:
+        return gvc_box_fail(&box, error, GVC_ERROR_CORRUPT, "data that no moof describes");
+    case GVC_BOX_FTYP:
+    case GVC_BOX_MOOV:
+        return gvc_box_fail(&box, error, GVC_ERROR_CORRUPT, "a second box of this kind");
+    default:
+        break; /* what is not known is not needed */
+    }
+    *end = box_end;
+    return GVC_OK;
+}
+
+/** Whether a failure says something of the bytes at hand, so that reading may go on after them. */
+static bool is_damage(gvc_result result) {
+    return result == GVC_ERROR_CORRUPT || result == GVC_ERROR_TRUNCATED ||
+           result == GVC_ERROR_UNSUPPORTED;
+}
+
+static gvc_result parse_body(gvc_parser *parser, uint64_t offset, gvc_error *error) {
+    while (offset < parser->io->size) {
+        gvc_error defect;
+        gvc_error_init(&defect);
+        uint64_t next = offset;
+        gvc_result result = parse_unit(parser, &next, &defect);
+        if (result != GVC_OK) {
+            if (!parser->options->keep_going || !is_damage(result)) {
+                if (error) *error = defect;
+                return result;
+            }
+            GVC_TRY(gvc_scan_for_moof(parser, offset + 1, &next, error));
+            GVC_TRY(gvc_parser_damage(parser, offset, next - offset, &defect, error));
+        }
+        offset = next;
+    }
+    return GVC_OK;
+}
+
+/** The file has been read to its end: is it whole? */
+static gvc_result check_end(gvc_parser *parser, gvc_error *error) {
+    gvc_demux *demux = parser->demux;
+    uint64_t declared = demux->config.declared_frames, size = parser->io->size;
+    gvc_error defect;
+    gvc_error_init(&defect);
+    gvc_result result = GVC_OK;
+    if (!parser->closed) {
+        result = gvc_fail(&defect, GVC_ERROR_TRUNCATED,
+                          "the file ends after frame %llu without its index (mfra)",
+                          (unsigned long long)parser->next_frame);
+    } else if (declared && declared != parser->next_frame) {
+        result = gvc_fail(&defect, GVC_ERROR_CORRUPT, "the file holds %llu frames of %llu",
+                          (unsigned long long)parser->next_frame, (unsigned long long)declared);
+    }
+    defect.offset = size;
+    if (result != GVC_OK && !parser->options->keep_going) {
+        if (error) *error = defect;
+        return result;
+    }
+    bool listed = false; /* a stretch that reaches the end tells already */
+    if (demux->damage_count) {
+        const gvc_damage *last = &demux->damage[demux->damage_count - 1];
+        listed = last->offset + last->size == size;
+    }
+    if (result != GVC_OK && !listed) GVC_TRY(gvc_parser_damage(parser, size, 0, &defect, error));
+    demux->complete = parser->closed && parser->index_matched && demux->damage_count == 0;
+    return GVC_OK;
+}
+
+gvc_result gvc_demux_open(const gvc_io *io, const gvc_read_options *options, gvc_demux *demux,
+                          gvc_error *error) {
+    *demux = (gvc_demux){0};
+    gvc_parser parser = {.io = io, .options = options, .demux = demux};
+    parser.scan_budget =
+        io->size > UINT64_MAX / SCAN_BUDGET_FILES ? UINT64_MAX : SCAN_BUDGET_FILES * io->size;
+    uint64_t end = 0;
+    gvc_result result;
+    GVC_CHECK(parse_head(&parser, &end, error));
+    GVC_CHECK(parse_body(&parser, end, error));
+    GVC_CHECK(check_end(&parser, error));
+cleanup:
+    free(parser.scratch);
+    free(parser.met);
+    if (result != GVC_OK) gvc_demux_free(demux);
+    return result;
+}
+
+gvc_result gvc_demux_read(const gvc_demux *demux, const gvc_io *io, gvc_track_kind kind,
+                          size_t index, gvc_buffer *buffer, gvc_error *error) {
+    gvc_buffer_clear(buffer);
+    if (kind >= GVC_TRACK_KINDS || index >= demux->sample_count[kind]) {
+        return gvc_fail(error, GVC_ERROR_ARGUMENT, "there is no sample %zu", index);
+    }
+    const gvc_sample_entry *sample = &demux->sample[kind][index];
+    int64_t frame = (int64_t)sample->presentation;
+    if (!gvc_grow((void **)&buffer->data, &buffer->capacity, sample->size, 1)) {
+        return gvc_at_frame(error, gvc_fail_memory(error), frame);
+    }
+    gvc_result result = io->read(io->user, sample->offset, buffer->data, sample->size, error);
+    if (result != GVC_OK) return gvc_at_frame(error, result, frame);
+    if (gvc_crc32(0, buffer->data, sample->size) != sample->crc) {
+        gvc_box mdat = {.offset = sample->offset, .path = "mdat"};
+        result = gvc_box_fail(&mdat, error, GVC_ERROR_CORRUPT, "the checksum of %s is wrong",
+                              kind == GVC_TRACK_SHAPE ? "a shape record" : "a picture");
+        return gvc_at_frame(error, result, frame);
+    }
+    buffer->size = sample->size;
+    return GVC_OK;
+}

@@ -1,0 +1,266 @@
+/* SPDX-License-Identifier: MIT */
+/** @file demux_moov.c  Reads the moov box: which tracks there are and what holds for all frames. */
+#include "base/digest.h"
+#include "container/parser.h"
+
+#include <string.h>
+
+/** What matters of a track. */
+typedef struct track_facts {
+    bool is_geometry, is_shape;
+    uint32_t track_id, timescale, described_track;
+    gvc_box avcc, gvcc;
+} track_facts;
+
+/** A FullBox whose version 1 has 64-bit times: skips the times and reads the field after them. */
+static gvc_result read_after_times(const gvc_box *parent, uint32_t type, uint32_t *value,
+                                   gvc_error *error) {
+    gvc_box box;
+    uint8_t version;
+    uint32_t flags;
+    GVC_TRY(gvc_box_find(parent, type, true, &box, error));
+    GVC_TRY(gvc_box_version(&box, 1, &version, &flags, error));
+    gvc_skip(&box.content, version == 1 ? 16 : 8); /* creation, modification */
+    *value = gvc_read_u32(&box.content);
+    return gvc_box_check(&box, error);
+}
+
+static gvc_result read_handler(const gvc_box *mdia, uint32_t *handler, gvc_error *error) {
+    gvc_box hdlr;
+    uint8_t version;
+    uint32_t flags;
+    GVC_TRY(gvc_box_find(mdia, GVC_BOX_HDLR, true, &hdlr, error));
+    GVC_TRY(gvc_box_version(&hdlr, 0, &version, &flags, error));
+    gvc_skip(&hdlr.content, 4);
+    *handler = gvc_read_u32(&hdlr.content);
+    return gvc_box_check(&hdlr, error);
+}
+
+/** Tells whether the `uri ` box names shape records. */
+static gvc_result read_uri(const gvc_box *urim, bool *is_shape, gvc_error *error) {
+    gvc_box uri;
+    uint8_t version;
+    uint32_t flags;
+    *is_shape = false;
+    GVC_TRY(gvc_box_find(urim, GVC_BOX_URI, false, &uri, error));
+    if (!uri.type) return GVC_OK;
+    GVC_TRY(gvc_box_version(&uri, 0, &version, &flags, error));
+    size_t size = gvc_cursor_left(&uri.content);
+    const char *text = (const char *)gvc_read_bytes(&uri.content, size);
+    size_t stem = sizeof GVC_SHAPE_URI_STEM - 1;
+    if (size <= stem || memcmp(text, GVC_SHAPE_URI_STEM, stem) != 0) return GVC_OK;
+    if (size != sizeof GVC_SHAPE_URI || memcmp(text, GVC_SHAPE_URI, size) != 0) {
+        return gvc_box_fail(&uri, error, GVC_ERROR_UNSUPPORTED,
+                            "shape records of another version than \"%s\"", GVC_SHAPE_URI);
+    }
+    *is_shape = true;
+    return GVC_OK;
+}
+
+/** A track is ours if its only sample entry is avc1 with gvcC, or urim with the shape's URI. */
+static gvc_result read_sample_entry(const gvc_box *stbl, uint32_t handler, track_facts *facts,
+                                    gvc_error *error) {
+    gvc_box stsd, entry;
+    uint8_t version;
+    uint32_t flags;
+    GVC_TRY(gvc_box_find(stbl, GVC_BOX_STSD, true, &stsd, error));
+    GVC_TRY(gvc_box_version(&stsd, 0, &version, &flags, error));
+    if (gvc_read_u32(&stsd.content) != 1) return gvc_box_check(&stsd, error);
+    GVC_TRY(gvc_box_next(&stsd, &entry, error));
+    if (handler == GVC_HANDLER_VIDEO && entry.type == GVC_BOX_AVC1) {
+        gvc_skip(&entry.content, GVC_AVC1_FIELDS);
+        GVC_TRY(gvc_box_check(&entry, error));
+        GVC_TRY(gvc_box_find(&entry, GVC_BOX_GVCC, false, &facts->gvcc, error));
+        facts->is_geometry = facts->gvcc.type != 0;
+        if (!facts->is_geometry) return GVC_OK;
+        return gvc_box_find(&entry, GVC_BOX_AVCC, true, &facts->avcc, error);
+    }
+    if (handler == GVC_HANDLER_META && entry.type == GVC_BOX_URIM) {
+        gvc_skip(&entry.content, GVC_URIM_FIELDS);
+        GVC_TRY(gvc_box_check(&entry, error));
+        return read_uri(&entry, &facts->is_shape, error);
+    }
+    return GVC_OK;
+}
+
+/** Samples outside fragments would have no checksum and no place in the index. */
+static gvc_result refuse_plain_samples(const gvc_box *stbl, gvc_error *error) {
+    gvc_box stsz;
+    uint8_t version;
+    uint32_t flags;
+    GVC_TRY(gvc_box_find(stbl, GVC_BOX_STSZ, true, &stsz, error));
+    GVC_TRY(gvc_box_version(&stsz, 0, &version, &flags, error));
+    gvc_skip(&stsz.content, 4);
+    uint32_t count = gvc_read_u32(&stsz.content);
+    GVC_TRY(gvc_box_check(&stsz, error));
+    if (count == 0) return GVC_OK;
+    return gvc_box_fail(&stsz, error, GVC_ERROR_CORRUPT, "%u samples lie outside of fragments",
+                        count);
+}
+
+static gvc_result read_track(const gvc_box *trak, track_facts *facts, gvc_error *error) {
+    gvc_box mdia, minf, stbl, tref, cdsc;
+    uint32_t handler;
+    *facts = (track_facts){0};
+    GVC_TRY(gvc_box_find(trak, GVC_BOX_MDIA, true, &mdia, error));
+    GVC_TRY(read_handler(&mdia, &handler, error));
+    GVC_TRY(gvc_box_find(&mdia, GVC_BOX_MINF, true, &minf, error));
+    GVC_TRY(gvc_box_find(&minf, GVC_BOX_STBL, true, &stbl, error));
+    GVC_TRY(read_sample_entry(&stbl, handler, facts, error));
+    if (!facts->is_geometry && !facts->is_shape) return GVC_OK;
+    GVC_TRY(read_after_times(trak, GVC_BOX_TKHD, &facts->track_id, error));
+    GVC_TRY(read_after_times(&mdia, GVC_BOX_MDHD, &facts->timescale, error));
+    GVC_TRY(refuse_plain_samples(&stbl, error));
+    if (facts->track_id == 0) {
+        return gvc_box_fail(trak, error, GVC_ERROR_CORRUPT, "a track has the number 0");
+    }
+    if (facts->is_geometry) return GVC_OK;
+    GVC_TRY(gvc_box_find(trak, GVC_BOX_TREF, true, &tref, error));
+    GVC_TRY(gvc_box_find(&tref, GVC_BOX_CDSC, true, &cdsc, error));
+    facts->described_track = gvc_read_u32(&cdsc.content);
+    return gvc_box_check(&cdsc, error);
+}
+
+static gvc_result read_tracks(const gvc_box *moov, track_facts *geometry, track_facts *shape,
+                              gvc_error *error) {
+    gvc_box rest = *moov, trak;
+    *geometry = *shape = (track_facts){0};
+    while (gvc_cursor_left(&rest.content)) {
+        track_facts facts;
+        GVC_TRY(gvc_box_next(&rest, &trak, error));
+        if (trak.type != GVC_BOX_TRAK) continue;
+        GVC_TRY(read_track(&trak, &facts, error));
+        if ((facts.is_geometry && geometry->is_geometry) || (facts.is_shape && shape->is_shape)) {
+            return gvc_box_fail(&trak, error, GVC_ERROR_CORRUPT, "a second %s track",
+                                facts.is_shape ? "shape" : "geometry");
+        }
+        if (facts.is_geometry) *geometry = facts;
+        if (facts.is_shape) *shape = facts;
+    }
+    return GVC_OK;
+}
+
+static gvc_result check_tracks(const gvc_box *moov, const track_facts *geometry,
+                               const track_facts *shape, bool has_brand, gvc_error *error) {
+    if (geometry->is_geometry && !shape->is_shape) {
+        return gvc_box_fail(moov, error, GVC_ERROR_CORRUPT,
+                            "the shape track is missing; a tool that copied only the video "
+                            "dropped it");
+    }
+    if (!has_brand) {
+        return gvc_fail(error, GVC_ERROR_UNSUPPORTED,
+                        "a media file without the brand gvc1: not a .gvc file, or one that a tool "
+                        "copied without its shape track");
+    }
+    if (!geometry->is_geometry) {
+        return gvc_box_fail(moov, error, GVC_ERROR_CORRUPT,
+                            "there is no geometry track (avc1 with gvcC)");
+    }
+    if (shape->track_id == geometry->track_id || shape->described_track != geometry->track_id) {
+        return gvc_box_fail(moov, error, GVC_ERROR_CORRUPT,
+                            "shape track %u describes track %u, the geometry track is %u",
+                            shape->track_id, shape->described_track, geometry->track_id);
+    }
+    return GVC_OK;
+}
+
+/** Reads the trex of a track. */
+static gvc_result read_defaults(const gvc_box *mvex, gvc_track_defaults *track, gvc_error *error) {
+    gvc_box rest = *mvex, trex;
+    bool found = false;
+    while (gvc_cursor_left(&rest.content)) {
+        uint8_t version;
+        uint32_t flags;
+        GVC_TRY(gvc_box_next(&rest, &trex, error));
+        if (trex.type != GVC_BOX_TREX) continue;
+        GVC_TRY(gvc_box_version(&trex, 0, &version, &flags, error));
+        uint32_t track_id = gvc_read_u32(&trex.content);
+        uint32_t description = gvc_read_u32(&trex.content);
+        uint32_t duration = gvc_read_u32(&trex.content);
+        uint32_t size = gvc_read_u32(&trex.content);
+        uint32_t sample_flags = gvc_read_u32(&trex.content);
+        GVC_TRY(gvc_box_check(&trex, error));
+        if (track_id != track->track_id) continue;
+        if (found || description != 1) {
+            return gvc_box_fail(&trex, error, GVC_ERROR_CORRUPT,
+                                "track %u has two trex boxes or sample description %u", track_id,
+                                description);
+        }
+        found = true;
+        *track = (gvc_track_defaults){track_id, duration, size, sample_flags};
+    }
+    if (found) return GVC_OK;
+    return gvc_box_fail(mvex, error, GVC_ERROR_CORRUPT, "track %u has no trex box",
+                        track->track_id);
+}
+
+static gvc_result read_config(gvc_parser *parser, const track_facts *geometry, gvc_error *error) {
+    gvc_demux *demux = parser->demux;
+    gvc_box gvcc = geometry->gvcc, avcc = geometry->avcc;
+    gvc_error defect;
+    gvc_error_init(&defect);
+    gvc_result result = gvc_config_read(&gvcc.content, &demux->config, &defect);
+    if (result != GVC_OK) return gvc_box_fail(&gvcc, error, result, "%s", defect.message);
+    const gvc_config *config = &demux->config;
+    if (config->image_size > parser->options->max_image_size) {
+        return gvc_box_fail(&gvcc, error, GVC_ERROR_LIMIT,
+                            "geometry images of %u samples per side; the limit is %u",
+                            config->image_size, parser->options->max_image_size);
+    }
+    uint64_t picture_bytes = 3 * (uint64_t)config->plane_height * config->picture_width * 2;
+    if (picture_bytes > parser->options->max_memory) {
+        return gvc_box_fail(
+            &gvcc, error, GVC_ERROR_LIMIT, "a picture takes %llu bytes; the limit is %llu",
+            (unsigned long long)picture_bytes, (unsigned long long)parser->options->max_memory);
+    }
+    if (config->declared_frames > parser->options->max_frames) {
+        return gvc_box_fail(&gvcc, error, GVC_ERROR_LIMIT, "%llu frames; the limit is %llu",
+                            (unsigned long long)config->declared_frames,
+                            (unsigned long long)parser->options->max_frames);
+    }
+    size_t size = gvc_cursor_left(&avcc.content), capacity = 0;
+    GVC_TRY(gvc_parser_grow(parser, (void **)&demux->avc_config, &capacity, size, 1, error));
+    if (size) memcpy(demux->avc_config, gvc_read_bytes(&avcc.content, size), size);
+    demux->avc_config_size = size;
+    return GVC_OK;
+}
+
+static gvc_result read_content(gvc_parser *parser, const gvc_box *moov, bool has_brand,
+                               gvc_error *error) {
+    track_facts geometry, shape;
+    gvc_box mvex;
+    GVC_TRY(read_tracks(moov, &geometry, &shape, error));
+    GVC_TRY(check_tracks(moov, &geometry, &shape, has_brand, error));
+    GVC_TRY(read_config(parser, &geometry, error));
+    uint32_t timescale = parser->demux->config.frame_rate_num;
+    if (geometry.timescale != timescale || shape.timescale != timescale) {
+        return gvc_box_fail(moov, error, GVC_ERROR_CORRUPT,
+                            "timescales %u and %u; the frame rate asks for %u", geometry.timescale,
+                            shape.timescale, timescale);
+    }
+    parser->track[GVC_TRACK_GEOMETRY].track_id = geometry.track_id;
+    parser->track[GVC_TRACK_SHAPE].track_id = shape.track_id;
+    GVC_TRY(gvc_box_find(moov, GVC_BOX_MVEX, true, &mvex, error));
+    GVC_TRY(read_defaults(&mvex, &parser->track[GVC_TRACK_GEOMETRY], error));
+    return read_defaults(&mvex, &parser->track[GVC_TRACK_SHAPE], error);
+}
+
+gvc_result gvc_parse_moov(gvc_parser *parser, gvc_box *moov, bool has_brand, gvc_error *error) {
+    GVC_TRY(gvc_parser_load(parser, moov, error));
+    gvc_crc_state state = GVC_CRC_ABSENT;
+    if (moov->size >= moov->header_size + GVC_GCRC_SIZE) {
+        uint64_t tail = moov->size - GVC_GCRC_SIZE;
+        uint32_t crc;
+        GVC_TRY(gvc_parser_crc(parser, 0, moov->offset + tail, &crc, error));
+        state = gvc_box_check_crc(crc, parser->scratch + tail);
+    }
+    if (state == GVC_CRC_WRONG) {
+        return gvc_box_fail(moov, error, GVC_ERROR_CORRUPT,
+                            "the checksum of the head of the file is wrong");
+    }
+    /* A tool that rewrote moov also lost its checksum; what else it lost is the better message. */
+    GVC_TRY(read_content(parser, moov, has_brand, error));
+    if (state == GVC_CRC_RIGHT) return GVC_OK;
+    return gvc_box_fail(moov, error, GVC_ERROR_CORRUPT,
+                        "moov does not end with its checksum (gcrc)");
+}

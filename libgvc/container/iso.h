@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/** @file iso.h  Four-character codes and flag bits of ISO/IEC 14496-12, and those of this format. */
+/** @file iso.h  Four-character codes and flag bits of ISO/IEC 14496-12, and those of this format.
+ */
 #ifndef GVC_CONTAINER_ISO_H
 #define GVC_CONTAINER_ISO_H
 
@@ -67,8 +68,8 @@
 #define GVC_SHAPE_URI_STEM "urn:gvc:shape:"
 #define GVC_SHAPE_URI GVC_SHAPE_URI_STEM "0"
 
-#define GVC_GCRC_SIZE 16u /**< of a whole gcrc box: header, version and flags, CRC-32 */
-#define GVC_MFRO_SIZE 16u /**< of a whole mfro box: header, version and flags, size of mfra */
+#define GVC_GCRC_SIZE 16u   /**< of a whole gcrc box: header, version and flags, CRC-32 */
+#define GVC_MFRO_SIZE 16u   /**< of a whole mfro box: header, version and flags, size of mfra */
 #define GVC_AVC1_FIELDS 78u /**< bytes of a VisualSampleEntry before its boxes */
 #define GVC_URIM_FIELDS 8u  /**< bytes of a SampleEntry before its boxes */
 

@@ -14,7 +14,8 @@ static size_t character_size(const uint8_t *text, size_t left) {
     if (lead < 0x80) return lead >= 0x20 && lead != 0x7f ? 1 : 0;
     size_t size = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
     if (lead < 0xc2 || lead > 0xf4 || size > left) return 0;
-    /* The second byte excludes C1 controls, overlong forms, surrogates and numbers past U+10FFFF. */
+    /* The second byte excludes C1 controls, overlong forms, surrogates and numbers past U+10FFFF.
+     */
     uint8_t least = lead == 0xc2 || lead == 0xe0 ? 0xa0 : lead == 0xf0 ? 0x90 : 0x80;
     uint8_t greatest = lead == 0xed ? 0x9f : lead == 0xf4 ? 0x8f : 0xbf;
     if (!is_continuation(text[1], least, greatest)) return 0;

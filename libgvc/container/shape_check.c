@@ -111,9 +111,9 @@ static gvc_result check_chart(const gvc_chart_shape *chart, size_t index, gvc_er
     gvc_result result = GVC_OK;
     uint32_t *vertex = NULL;
     if (weld.genus != chart->genus) {
-        result = gvc_fail(error, GVC_ERROR_CORRUPT,
-                          "chart %zu says genus %u, its sides give genus %u", index, chart->genus,
-                          weld.genus);
+        result =
+            gvc_fail(error, GVC_ERROR_CORRUPT, "chart %zu says genus %u, its sides give genus %u",
+                     index, chart->genus, weld.genus);
         goto cleanup;
     }
     vertex = gvc_alloc(chart->node_count, sizeof *vertex);

@@ -163,9 +163,9 @@ static gvc_result expand_body(const uint8_t *data, size_t size, size_t max_memor
     *body_size = ZSTD_decompress(*body, (size_t)expanded, data, size);
     if (ZSTD_isError(*body_size)) {
         bool memory = ZSTD_getErrorCode(*body_size) == ZSTD_error_memory_allocation;
-        return memory ? gvc_fail_memory(error)
-                      : gvc_fail(error, GVC_ERROR_CORRUPT, "zstd: %s",
-                                 ZSTD_getErrorName(*body_size));
+        return memory
+                   ? gvc_fail_memory(error)
+                   : gvc_fail(error, GVC_ERROR_CORRUPT, "zstd: %s", ZSTD_getErrorName(*body_size));
     }
     return GVC_OK;
 }
@@ -183,8 +183,9 @@ static gvc_result read_head(gvc_cursor *cursor, gvc_shape_frame *frame, unsigned
         return gvc_fail(error, GVC_ERROR_CORRUPT, "%zu bytes are too few for a shape record",
                         cursor->size);
     }
-    if (*flags & GVC_RECORD_NAMED && (!gvc_read_label(cursor, frame->source, sizeof frame->source) ||
-                                      frame->source[0] == '\0')) {
+    if (*flags & GVC_RECORD_NAMED &&
+        (!gvc_read_label(cursor, frame->source, sizeof frame->source) ||
+         frame->source[0] == '\0')) {
         return gvc_fail(error, GVC_ERROR_CORRUPT,
                         "a source's name is empty, too long or not plain UTF-8");
     }

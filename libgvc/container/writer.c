@@ -201,8 +201,8 @@ static gvc_result build_moof(gvc_writer *writer, const gvc_fragment *fragment, u
     size_t mfhd = gvc_box_begin_full(buffer, GVC_BOX_MFHD, 0, 0);
     gvc_write_u32(buffer, writer->sequence + 1);
     gvc_box_end(buffer, mfhd);
-    size_t geometry = write_traf(writer, GVC_GEOMETRY_TRACK, fragment->geometry,
-                                 fragment->frame_count, buffer);
+    size_t geometry =
+        write_traf(writer, GVC_GEOMETRY_TRACK, fragment->geometry, fragment->frame_count, buffer);
     size_t shape =
         write_traf(writer, GVC_SHAPE_TRACK, fragment->shape, fragment->frame_count, buffer);
     uint64_t payload = shape_bytes + geometry_bytes;

@@ -31,9 +31,9 @@ static void write_mvhd(const gvc_config *config, gvc_buffer *buffer) {
     size_t box = gvc_box_begin_full(buffer, GVC_BOX_MVHD, 0, 0);
     write_zeros(buffer, 8); /* creation, modification */
     gvc_write_u32(buffer, config->frame_rate_num);
-    gvc_write_u32(buffer, 0);      /* duration */
+    gvc_write_u32(buffer, 0);       /* duration */
     gvc_write_u32(buffer, 0x10000); /* rate 1 */
-    gvc_write_u16(buffer, 0x100);  /* volume 1 */
+    gvc_write_u16(buffer, 0x100);   /* volume 1 */
     write_zeros(buffer, 10);
     write_matrix(buffer);
     write_zeros(buffer, 24);
@@ -45,7 +45,7 @@ static void write_tkhd(uint32_t track, uint32_t width, uint32_t height, gvc_buff
     size_t box = gvc_box_begin_full(buffer, GVC_BOX_TKHD, 0, 3); /* enabled, in the movie */
     write_zeros(buffer, 8);
     gvc_write_u32(buffer, track);
-    write_zeros(buffer, 4 + 4 + 8); /* reserved, duration, reserved */
+    write_zeros(buffer, 4 + 4 + 8);     /* reserved, duration, reserved */
     write_zeros(buffer, 2 + 2 + 2 + 2); /* layer, group, volume, reserved */
     write_matrix(buffer);
     gvc_write_u32(buffer, width << 16);

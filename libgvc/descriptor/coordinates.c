@@ -24,11 +24,12 @@ gvc_result gvc_coordinates_attach(gvc_halfedges *mesh, const gvc_features *featu
     free(mesh->attribute);
     mesh->attribute = wider;
     mesh->attribute_count = channels;
-    *coordinates = (gvc_coordinates){.first = first,
-                                     .count = count,
-                                     .dimension = count + 3,
-                                     .scale = features->geodesic_scale > 0 ? features->geodesic_scale : 1,
-                                     .diagonal = features->diagonal > 0 ? features->diagonal : 1};
+    *coordinates =
+        (gvc_coordinates){.first = first,
+                          .count = count,
+                          .dimension = count + 3,
+                          .scale = features->geodesic_scale > 0 ? features->geodesic_scale : 1,
+                          .diagonal = features->diagonal > 0 ? features->diagonal : 1};
     return GVC_OK;
 }
 

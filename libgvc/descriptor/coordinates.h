@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file coordinates.h
- * Geodesic coordinates (Definition 2): the distances of a point to all features, normalised. They are
- * carried as additional attributes of the mesh, so that edge splits interpolate them.
+ * Geodesic coordinates (Definition 2): the distances of a point to all features, normalised. They
+ * are carried as additional attributes of the mesh, so that edge splits interpolate them.
  */
 #ifndef GVC_DESCRIPTOR_COORDINATES_H
 #define GVC_DESCRIPTOR_COORDINATES_H
@@ -22,7 +22,8 @@ gvc_result gvc_coordinates_attach(gvc_halfedges *mesh, const gvc_features *featu
                                   gvc_coordinates *coordinates, gvc_error *error);
 /** Takes them off again; does nothing if none are attached. */
 void gvc_coordinates_detach(gvc_halfedges *mesh, gvc_coordinates *coordinates);
-/** Fills channel `channel` with the distances to each of `vertex`, and `channel` + 1, ... likewise. */
+/** Fills channel `channel` with the distances to each of `vertex`, and `channel` + 1, ... likewise.
+ */
 gvc_result gvc_coordinates_measure(gvc_halfedges *mesh, const gvc_coordinates *coordinates,
                                    size_t channel, const uint32_t *vertex, size_t count,
                                    gvc_error *error);

@@ -144,7 +144,8 @@ gvc_result gvc_cut_graph_walk(const gvc_halfedges *mesh, const gvc_cut_graph *gr
     gvc_border_side now = {0, false};
     do {
         if (*count == 2 * graph->edge_count)
-            return gvc_fail(error, GVC_ERROR_INTERNAL, "the border of the cut surface never closes");
+            return gvc_fail(error, GVC_ERROR_INTERNAL,
+                            "the border of the cut surface never closes");
         side[(*count)++] = now;
         uint32_t node = graph->edge[now.edge].node[now.reversed ? 0 : 1];
         /* With the surface on the left the border goes on with the edge that comes first clockwise

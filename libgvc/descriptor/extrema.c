@@ -249,7 +249,9 @@ static gvc_result list_maxima(merge_tree *t, double least, gvc_extremum **list, 
         if (t->parent[v] == v && least <= 1) (*list)[n++] = extremum_at(t, t->maximum[v], 1);
     for (size_t i = 0; i < t->merge_count; i++) {
         double persistence = height(t, &t->merge[i]);
-        if (persistence >= least) (*list)[n++] = extremum_at(t, t->merge[i].younger, persistence);
+        /* At 0 it is no maximum, only an artefact of telling equal values apart. */
+        if (persistence > 0 && persistence >= least)
+            (*list)[n++] = extremum_at(t, t->merge[i].younger, persistence);
     }
     qsort(*list, n, sizeof **list, compare_extrema);
     *count = n;

@@ -98,51 +98,52 @@ static double distance_through(const gvc_apex *apex, double a, double b) {
     return sqrt(dx * dx + height * height);
 }
 
-/* Offers to the apex over halfedge `h` the way across it, if both its ends are final. */
-static void offer_across(gvc_marcher *m, double *distance, uint32_t h) {
-    const gvc_halfedges *mesh = m->mesh;
-    uint32_t a = mesh->vertex[h], b = mesh->vertex[gvc_next(h)], c = mesh->vertex[gvc_prev(h)];
-    if (m->state[a] != STATE_FINAL || m->state[b] != STATE_FINAL || m->state[c] == STATE_FINAL)
-        return;
-    offer(m, distance, c, distance_through(&m->apex[h], distance[a], distance[b]));
-}
-
-static void offer_along(gvc_marcher *m, double *distance, uint32_t from, uint32_t to,
-                        double length) {
-    if (m->state[to] != STATE_FINAL) offer(m, distance, to, distance[from] + length);
+static bool is_final(const gvc_marcher *m, uint32_t vertex) {
+    return m->state[vertex] == STATE_FINAL;
 }
 
 /* The triangles that split an obtuse corner, whose far vertex is no neighbour of the corner. */
-static void offer_unfolded(gvc_marcher *m, double *distance, uint32_t vertex) {
+static void pass_on_unfolded(gvc_marcher *m, double *distance, uint32_t vertex) {
     const gvc_unfolding *u = &m->unfolding;
     for (uint32_t i = u->first[vertex]; i < u->first[vertex + 1]; i++) {
         const gvc_split *split = &u->split[u->incident[i]];
-        if (m->state[split->corner] == STATE_FINAL) continue;
-        if (split->far == vertex)
-            offer(m, distance, split->corner, distance[vertex] + split->far_length);
+        uint32_t far = split->far, corner = split->corner;
+        if (is_final(m, corner) || !is_final(m, far)) continue;
+        if (far == vertex) offer(m, distance, corner, distance[vertex] + split->far_length);
         for (int side = 0; side < 2; side++) {
             uint32_t near = split->near[side];
-            if (m->state[near] != STATE_FINAL || m->state[split->far] != STATE_FINAL) continue;
-            offer(m, distance, split->corner,
-                  distance_through(&split->apex[side], distance[near], distance[split->far]));
+            if ((far == vertex || near == vertex) && is_final(m, near))
+                offer(m, distance, corner,
+                      distance_through(&split->apex[side], distance[near], distance[far]));
         }
     }
 }
 
-/* Passes the wave on from a vertex that has just become final. */
+/* Passes the wave on from a vertex that has just become final: along its edges, and across the base
+ * of every face whose other base vertex is final, too. */
 static void pass_on(gvc_marcher *m, double *distance, uint32_t vertex) {
     const gvc_halfedges *mesh = m->mesh;
+    const double here = distance[vertex];
     uint32_t first = mesh->outgoing[vertex], h = first;
     do {
-        offer_along(m, distance, vertex, mesh->vertex[gvc_next(h)], m->apex[h].length);
-        uint32_t back = gvc_prev(h); /* ends at `vertex` */
-        if (mesh->twin[back] == GVC_NONE)
-            offer_along(m, distance, vertex, mesh->vertex[back], m->apex[back].length);
-        offer_across(m, distance, h);
-        offer_across(m, distance, back);
+        /* The face is (vertex, ahead, behind); `behind` is `ahead` of the next face, if any. */
+        uint32_t back = gvc_prev(h);
+        uint32_t ahead = mesh->vertex[gvc_next(h)], behind = mesh->vertex[back];
+        bool ahead_final = is_final(m, ahead), behind_final = is_final(m, behind);
+        if (!ahead_final) {
+            offer(m, distance, ahead, here + m->apex[h].length);
+            if (behind_final)
+                offer(m, distance, ahead, distance_through(&m->apex[back], distance[behind], here));
+        }
+        if (!behind_final) {
+            if (mesh->twin[back] == GVC_NONE)
+                offer(m, distance, behind, here + m->apex[back].length);
+            if (ahead_final)
+                offer(m, distance, behind, distance_through(&m->apex[h], here, distance[ahead]));
+        }
         h = gvc_turn(mesh, h);
     } while (h != GVC_NONE && h != first);
-    offer_unfolded(m, distance, vertex);
+    pass_on_unfolded(m, distance, vertex);
 }
 
 /* ----------------------------------------------------------------------------------- the marcher

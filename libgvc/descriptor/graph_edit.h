@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/** @file graph_edit.h  Putting a cut graph together, and the rotation of its edges round its nodes. */
+/** @file graph_edit.h  Putting a cut graph together, and the rotation of its edges round its nodes.
+ */
 #ifndef GVC_DESCRIPTOR_GRAPH_EDIT_H
 #define GVC_DESCRIPTOR_GRAPH_EDIT_H
 
@@ -30,22 +31,22 @@ gvc_result gvc_cut_graph_split_edge(gvc_cut_graph *graph, uint32_t edge, size_t 
 /** Puts a vertex, by which the mesh edge after `place` was split, into the chain of an edge. */
 gvc_result gvc_cut_graph_insert_vertex(gvc_cut_graph *graph, uint32_t edge, size_t place,
                                        uint32_t vertex, gvc_error *error);
-/** Where a vertex lies on the graph: `*node`, or else inside `*edge` at `*place`; both GVC_NONE if it
- *  does not. */
+/** Where a vertex lies on the graph: `*node`, or else inside `*edge` at `*place`; both GVC_NONE if
+ * it does not. */
 void gvc_cut_graph_locate(const gvc_cut_graph *graph, uint32_t vertex, uint32_t *node,
                           uint32_t *edge, size_t *place);
 
 /** The first halfedge of an edge seen from one of its ends. */
 uint32_t gvc_edge_end_halfedge(const gvc_halfedges *mesh, const gvc_cut_graph *graph,
                                gvc_edge_end end);
-/** The end first met when turning clockwise from halfedge `h`, itself included, round its start, which
- *  is node `node` of a closed mesh; edge GVC_NONE if the node has no edge. */
+/** The end first met when turning clockwise from halfedge `h`, itself included, round its start,
+ * which is node `node` of a closed mesh; edge GVC_NONE if the node has no edge. */
 gvc_edge_end gvc_edge_end_before(const gvc_halfedges *mesh, const gvc_cut_graph *graph,
                                  uint32_t node, uint32_t h);
 
 /** Walks the border of the surface cut open along the graph, surface on the left, from the forward
- *  side of edge 0 until it closes. `side` has room for 2 * edge_count. The surface opens to one disk
- *  exactly if `*count` is 2 * edge_count and node_count - edge_count is 1 - 2 * genus. */
+ *  side of edge 0 until it closes. `side` has room for 2 * edge_count. The surface opens to one
+ * disk exactly if `*count` is 2 * edge_count and node_count - edge_count is 1 - 2 * genus. */
 gvc_result gvc_cut_graph_walk(const gvc_halfedges *mesh, const gvc_cut_graph *graph,
                               gvc_border_side *side, size_t *count, gvc_error *error);
 

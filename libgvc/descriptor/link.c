@@ -12,7 +12,8 @@ static const gvc_edge_end no_end = {GVC_NONE, 0};
 /* Paths that reach an edge this close to a node (in diagonals) start from the node: a shorter edge
  * would be stretched over the two pixels it needs at least. */
 static const double node_reach = 0.02;
-/* Standard deviation of E_d and E_p in normalised coordinates, and where their exponents level off. */
+/* Standard deviation of E_d and E_p in normalised coordinates, and where their exponents level off.
+ */
 static const double deviation = 0.03, greatest_exponent = 50;
 /* A path is given up if its mean distance to the one before is over this. */
 static const double greatest_departure = 0.15;
@@ -58,8 +59,8 @@ cleanup:
 }
 
 /* Keeps in the link where its path and its first node are in this frame. */
-static gvc_result remember(const gvc_routing *r, gvc_link *link, const uint32_t *chain, size_t count,
-                           gvc_error *error) {
+static gvc_result remember(const gvc_routing *r, gvc_link *link, const uint32_t *chain,
+                           size_t count, gvc_error *error) {
     gvc_surface_point *point = gvc_alloc(count, sizeof *point);
     if (!link->junction)
         link->junction = gvc_alloc(r->coordinates.dimension, sizeof *link->junction);
@@ -84,11 +85,13 @@ static gvc_result begin(const gvc_routing *r, gvc_error *error) {
 }
 
 /* Gives the corners of a node between an edge end and the next one a role. */
-static void mark_end(const gvc_routing *r, uint32_t node, gvc_edge_end after, gvc_corner_role role) {
+static void mark_end(const gvc_routing *r, uint32_t node, gvc_edge_end after,
+                     gvc_corner_role role) {
     if (after.edge == GVC_NONE)
         gvc_pathfinder_mark_vertex(r->finder, r->graph->node[node].vertex, role);
     else
-        gvc_pathfinder_mark_sector(r->finder, gvc_edge_end_halfedge(r->mesh, r->graph, after), role);
+        gvc_pathfinder_mark_sector(r->finder, gvc_edge_end_halfedge(r->mesh, r->graph, after),
+                                   role);
 }
 
 /* Begins a search between the two ends of the link. */
@@ -145,8 +148,8 @@ static uint32_t tip_at(const gvc_routing *r, uint32_t vertex) {
     return GVC_NONE;
 }
 
-/* Finds or makes the node from which the shortest path leaves the graph; if that is not where the path
- * begins, the path is found anew. */
+/* Finds or makes the node from which the shortest path leaves the graph; if that is not where the
+ * path begins, the path is found anew. */
 static gvc_result attach(gvc_routing *r, gvc_link *link, gvc_surface_path *path, gvc_error *error) {
     uint32_t edge;
     size_t place;
@@ -186,7 +189,8 @@ cleanup:
     return result;
 }
 
-/* ---------------------------------------------------------------------------- frames that follow */
+/* ---------------------------------------------------------------------------- frames that follow
+ */
 
 static double square_distance(const double *a, const double *b, size_t dimension) {
     double sum = 0;
@@ -203,8 +207,8 @@ typedef struct chain_place {
 enum { CHAIN_STEPS = 8 }; /* between two vertices of the chain */
 
 /* Eq. 10: the point of the edge that is nearest to both the old junction and the point where the
- * shortest path meets the graph, in coordinates. Squares, because with lambda 0.5 every point between
- * the two would do for the sum of distances itself. `work` has room for 3 points. */
+ * shortest path meets the graph, in coordinates. Squares, because with lambda 0.5 every point
+ * between the two would do for the sum of distances itself. `work` has room for 3 points. */
 static chain_place best_junction(const gvc_routing *r, const gvc_cut_edge *edge, const double *old,
                                  const double *shortest, double *work) {
     size_t n = r->coordinates.dimension;
@@ -264,8 +268,8 @@ cleanup:
     return result;
 }
 
-/* What a path costs: the exponents of E_p and E_d (Eqs. 7 and 8), so that the path of least cost is the
- * one of greatest probability (Eq. 9). */
+/* What a path costs: the exponents of E_p and E_d (Eqs. 7 and 8), so that the path of least cost is
+ * the one of greatest probability (Eq. 9). */
 typedef struct evidence {
     const gvc_coordinates *coordinates;
     const gvc_prior *previous, *shortest;
@@ -292,8 +296,12 @@ static double evidence_weight(const void *context, const double position[3],
 static gvc_result best_path(gvc_routing *r, const gvc_link *link, gvc_surface_path *path,
                             gvc_error *error) {
     gvc_prior shortest = {0};
-    evidence e = {&r->coordinates, &link->prior, &shortest, r->options->prior_weight,
-                  r->options->shortest_weight, NULL};
+    evidence e = {&r->coordinates,
+                  &link->prior,
+                  &shortest,
+                  r->options->prior_weight,
+                  r->options->shortest_weight,
+                  NULL};
     gvc_result result = GVC_OK;
     e.point = gvc_alloc(r->coordinates.dimension, sizeof *e.point);
     if (!e.point) GVC_CHECK(gvc_fail_memory(error));
@@ -339,7 +347,8 @@ cleanup:
     return result;
 }
 
-/* ------------------------------------------------------------------------------ handles as links */
+/* ------------------------------------------------------------------------------ handles as links
+ */
 
 gvc_result gvc_link_of_edge(const gvc_routing *r, uint32_t edge, gvc_link *link, bool *possible,
                             gvc_error *error) {

@@ -13,15 +13,16 @@
 #include "descriptor/prior.h"
 #include "descriptor/tracking.h"
 
-/** A path from a node of the graph, or from a junction made on one of its edges, to a tip or to another
- *  node. Edges and nodes are numbered as they are when the link is added. */
+/** A path from a node of the graph, or from a junction made on one of its edges, to a tip or to
+ * another node. Edges and nodes are numbered as they are when the link is added. */
 typedef struct gvc_link {
-    uint32_t tip;          /**< number of the tip it leads to, or GVC_NONE */
-    uint32_t parent;       /**< edge on which its junction is made, or GVC_NONE */
-    uint32_t node[2];      /**< first and last node */
-    gvc_edge_end after[2]; /**< at each: the edge end that comes before the path counter-clockwise */
-    double *junction;      /**< coordinates of the first node in the frame before */
-    gvc_prior prior;       /**< the path in the frame before */
+    uint32_t tip;     /**< number of the tip it leads to, or GVC_NONE */
+    uint32_t parent;  /**< edge on which its junction is made, or GVC_NONE */
+    uint32_t node[2]; /**< first and last node */
+    gvc_edge_end
+        after[2];     /**< at each: the edge end that comes before the path counter-clockwise */
+    double *junction; /**< coordinates of the first node in the frame before */
+    gvc_prior prior;  /**< the path in the frame before */
 } gvc_link;
 
 void gvc_link_free(gvc_link *link);
@@ -42,13 +43,13 @@ typedef struct gvc_routing {
  *  reached. */
 gvc_result gvc_link_nearest(gvc_routing *routing, gvc_link *link, gvc_error *error);
 
-/** Places a link of the frame before by Eqs. 6 to 10. `*kept` is false if there is no way, or only one
- *  far from where it was. */
+/** Places a link of the frame before by Eqs. 6 to 10. `*kept` is false if there is no way, or only
+ * one far from where it was. */
 gvc_result gvc_link_again(gvc_routing *routing, gvc_link *link, bool *kept, gvc_error *error);
 
 /** Makes a link of an edge of a graph that came about in another way: as if the edges before it had
- *  been there and those after it had not. `*possible` is false for an edge whose two ends lie in one
- *  sector of one node. */
+ *  been there and those after it had not. `*possible` is false for an edge whose two ends lie in
+ * one sector of one node. */
 gvc_result gvc_link_of_edge(const gvc_routing *routing, uint32_t edge, gvc_link *link,
                             bool *possible, gvc_error *error);
 

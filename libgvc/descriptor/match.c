@@ -30,7 +30,8 @@ static bool assignment_allocate(assignment *a, size_t rows, size_t columns) {
     a->row_at = gvc_alloc(columns + 1, sizeof(size_t));
     a->came_from = gvc_alloc(columns + 1, sizeof(size_t));
     a->used = gvc_alloc(columns + 1, 1);
-    return a->row_potential && a->column_potential && a->slack && a->row_at && a->came_from && a->used;
+    return a->row_potential && a->column_potential && a->slack && a->row_at && a->came_from &&
+           a->used;
 }
 
 /* Adds one row to the assignment along a shortest augmenting path. */
@@ -47,7 +48,8 @@ static void assign_row(assignment *a, const double *cost, size_t row, size_t col
         a->used[column] = 1;
         for (size_t j = 1; j <= columns; j++) {
             if (a->used[j]) continue;
-            double reduced = cost[(i - 1) * columns + j - 1] - a->row_potential[i] - a->column_potential[j];
+            double reduced =
+                cost[(i - 1) * columns + j - 1] - a->row_potential[i] - a->column_potential[j];
             if (reduced < a->slack[j]) {
                 a->slack[j] = reduced;
                 a->came_from[j] = column;
@@ -88,8 +90,8 @@ gvc_result gvc_assign(const double *cost, size_t rows, size_t columns, uint32_t 
     return GVC_OK;
 }
 
-/* Position decides; the node attributes of Sect. 3.1.3 settle what is close, and a tip that stands out
- * is preferred to a wrinkle beside it. */
+/* Position decides; the node attributes of Sect. 3.1.3 settle what is close, and a tip that stands
+ * out is preferred to a wrinkle beside it. */
 static double difference(const gvc_extremum *a, const gvc_extremum *b, double distance) {
     return distance + 0.25 * fabs(a->mu - b->mu) + 0.25 * fabs(sqrt(a->area) - sqrt(b->area)) -
            0.05 * fmin(b->persistence, 0.3);

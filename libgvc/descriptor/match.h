@@ -5,10 +5,10 @@
 
 #include "descriptor/features.h"
 
-/** For each of the `count` extrema of the previous frame the index of its match in `features`, so that
- *  the sum of differences of position, mu and relative area is least (Hungarian algorithm). `*found`
- *  is false if some extremum has no match within `gate` diagonals of its position; `match` (room for
- *  `count`) is then meaningless. */
+/** For each of the `count` extrema of the previous frame the index of its match in `features`, so
+ * that the sum of differences of position, mu and relative area is least (Hungarian algorithm).
+ * `*found` is false if some extremum has no match within `gate` diagonals of its position; `match`
+ * (room for `count`) is then meaningless. */
 gvc_result gvc_match_extrema(const gvc_extremum *previous, size_t count,
                              const gvc_features *features, double gate, uint32_t *match,
                              bool *found, gvc_error *error);

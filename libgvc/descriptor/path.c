@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/** @file path.c  Dijkstra and A* over the Steiner graph of a mesh, and insertion of what they find. */
+/** @file path.c  Dijkstra and A* over the Steiner graph of a mesh, and insertion of what they find.
+ */
 #include "descriptor/path.h"
 
 #include "base/memory.h"
@@ -21,19 +22,19 @@ struct gvc_pathfinder {
     const gvc_halfedges *mesh; /* borrowed from begin to the end of the search */
     const gvc_cut_graph *graph;
     size_t vertex_count, edge_count;
-    uint32_t *edge;     /* per halfedge: its edge */
-    uint32_t *canon;    /* per edge: its smaller halfedge */
-    uint8_t *role;      /* per halfedge: gvc_corner_role of the corner it starts at */
-    uint8_t *special;   /* per vertex: some corner is not free */
-    uint8_t *wall;      /* per edge: belongs to the graph */
-    uint8_t *coarse;    /* per edge: too short to be split once more */
-    uint32_t *last;     /* per face: scratch of straighten */
-    double *position;   /* 3 per node */
-    double *distance;   /* per node */
-    double *weight;     /* per node; negative: not evaluated yet */
-    uint32_t *parent;   /* per node */
-    uint8_t *settled;   /* per node */
-    double *attribute;  /* one point's */
+    uint32_t *edge;    /* per halfedge: its edge */
+    uint32_t *canon;   /* per edge: its smaller halfedge */
+    uint8_t *role;     /* per halfedge: gvc_corner_role of the corner it starts at */
+    uint8_t *special;  /* per vertex: some corner is not free */
+    uint8_t *wall;     /* per edge: belongs to the graph */
+    uint8_t *coarse;   /* per edge: too short to be split once more */
+    uint32_t *last;    /* per face: scratch of straighten */
+    double *position;  /* 3 per node */
+    double *distance;  /* per node */
+    double *weight;    /* per node; negative: not evaluated yet */
+    uint32_t *parent;  /* per node */
+    uint8_t *settled;  /* per node */
+    double *attribute; /* one point's */
     size_t edge_capacity, canon_capacity, role_capacity, special_capacity, wall_capacity;
     size_t coarse_capacity, last_capacity, position_capacity, distance_capacity, weight_capacity;
     size_t parent_capacity, settled_capacity, attribute_capacity;
@@ -61,8 +62,9 @@ gvc_result gvc_pathfinder_create(gvc_pathfinder **finder, gvc_error *error) {
 void gvc_pathfinder_destroy(gvc_pathfinder **finder) {
     if (!finder || !*finder) return;
     gvc_pathfinder *f = *finder;
-    void *all[] = {f->edge, f->canon,    f->role,     f->special, f->wall,   f->coarse,    f->last,
-                   f->position, f->distance, f->weight, f->parent, f->settled, f->attribute, f->heap};
+    void *all[] = {f->edge,   f->canon,   f->role,      f->special,  f->wall,
+                   f->coarse, f->last,    f->position,  f->distance, f->weight,
+                   f->parent, f->settled, f->attribute, f->heap};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) free(all[i]);
     free(f);
     *finder = NULL;
@@ -98,9 +100,10 @@ static bool make_room(gvc_pathfinder *f, const gvc_halfedges *mesh) {
     }
     size_t nodes = node_count(f);
     return GROW(role, halfedges) && GROW(special, f->vertex_count) && GROW(wall, f->edge_count) &&
-           GROW(coarse, f->edge_count) && GROW(last, mesh->face_count) && GROW(position, 3 * nodes) &&
-           GROW(distance, nodes) && GROW(weight, nodes) && GROW(parent, nodes) &&
-           GROW(settled, nodes) && GROW(attribute, mesh->attribute_count + 1);
+           GROW(coarse, f->edge_count) && GROW(last, mesh->face_count) &&
+           GROW(position, 3 * nodes) && GROW(distance, nodes) && GROW(weight, nodes) &&
+           GROW(parent, nodes) && GROW(settled, nodes) &&
+           GROW(attribute, mesh->attribute_count + 1);
 }
 
 /* Edges this much shorter than the mean are not split again, so that paths beside each other do not
@@ -232,8 +235,7 @@ static double weight_of(gvc_pathfinder *f, uint32_t node) {
 
 /* Cost of the straight piece between two nodes, or INFINITY if its length alone is over `limit`. */
 static double piece_cost(gvc_pathfinder *f, uint32_t from, uint32_t to, double limit) {
-    double length =
-        distance_between(f->position + 3 * (size_t)from, f->position + 3 * (size_t)to);
+    double length = distance_between(f->position + 3 * (size_t)from, f->position + 3 * (size_t)to);
     if (!f->weigh) return length;
     if (!(length < limit)) return INFINITY;
     return length * (1 + 0.5 * (weight_of(f, from) + weight_of(f, to)));
@@ -361,8 +363,8 @@ static void search(gvc_pathfinder *f) {
 
 /* -------------------------------------------------------------------------------- straightening */
 
-/* Calls `visit` for the faces through which a point of the path may be met: both of an edge, all of a
- * vertex, but of an end of the path only those whose corner has the right role. */
+/* Calls `visit` for the faces through which a point of the path may be met: both of an edge, all of
+ * a vertex, but of an end of the path only those whose corner has the right role. */
 typedef void (*face_visitor)(gvc_pathfinder *f, uint32_t face, uint32_t *value);
 
 static void note_last(gvc_pathfinder *f, uint32_t face, uint32_t *value) { f->last[face] = *value; }
@@ -387,14 +389,12 @@ static void visit_faces(gvc_pathfinder *f, const gvc_surface_point *p, int role,
 }
 
 static int role_at(const gvc_surface_path *path, size_t i) {
-    return i == 0                  ? GVC_CORNER_SOURCE
-           : i + 1 == path->count ? GVC_CORNER_TARGET
-                                  : GVC_CORNER_FREE;
+    return i == 0 ? GVC_CORNER_SOURCE : i + 1 == path->count ? GVC_CORNER_TARGET : GVC_CORNER_FREE;
 }
 
-/* From each point goes straight to the last one that lies on a face with it. A weighted path may come
- * back to a face, even cross itself there; afterwards each face holds at most one piece of the path,
- * which is what insertion needs. */
+/* From each point goes straight to the last one that lies on a face with it. A weighted path may
+ * come back to a face, even cross itself there; afterwards each face holds at most one piece of the
+ * path, which is what insertion needs. */
 static void straighten(gvc_pathfinder *f, gvc_surface_path *path) {
     uint32_t none = GVC_NONE;
     for (size_t i = 0; i < path->count; i++)

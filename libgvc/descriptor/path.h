@@ -5,8 +5,8 @@
  *
  * The search runs over a Steiner graph (Lanthier, Maheshwari & Sack 2001): the vertices of the mesh
  * and GVC_STEINER_POINTS points inside every edge, two of them joined wherever they lie on one
- * face. The path found is then made of mesh edges by splitting those it crosses, so it is straighter
- * than any path along the edges of the mesh as given.
+ * face. The path found is then made of mesh edges by splitting those it crosses, so it is
+ * straighter than any path along the edges of the mesh as given.
  */
 #ifndef GVC_DESCRIPTOR_PATH_H
 #define GVC_DESCRIPTOR_PATH_H
@@ -57,8 +57,8 @@ gvc_result gvc_pathfinder_begin(gvc_pathfinder *finder, const gvc_halfedges *mes
                                 const gvc_cut_graph *graph, gvc_error *error);
 /** Gives all corners of a vertex one role. */
 void gvc_pathfinder_mark_vertex(gvc_pathfinder *finder, uint32_t vertex, gvc_corner_role role);
-/** Gives the corners of one sector a role: those met turning counter-clockwise round its vertex from
- *  halfedge `h` up to the next edge of the graph (all of them if there is none). */
+/** Gives the corners of one sector a role: those met turning counter-clockwise round its vertex
+ * from halfedge `h` up to the next edge of the graph (all of them if there is none). */
 void gvc_pathfinder_mark_sector(gvc_pathfinder *finder, uint32_t h, gvc_corner_role role);
 /** Gives every corner at the vertices of the graph, on all sides, one role. */
 void gvc_pathfinder_mark_graph(gvc_pathfinder *finder, gvc_corner_role role);
@@ -74,8 +74,8 @@ gvc_result gvc_pathfinder_find(gvc_pathfinder *finder, gvc_path_weight weight, c
 void gvc_surface_point_get(const gvc_halfedges *mesh, const gvc_surface_point *point,
                            double position[3], double *attribute);
 
-/** Splits the edges a path crosses and gives the chain of vertices from source to target, each joined
- *  to the next by an edge of the mesh. `*vertex` is freed by the caller with free(). */
+/** Splits the edges a path crosses and gives the chain of vertices from source to target, each
+ * joined to the next by an edge of the mesh. `*vertex` is freed by the caller with free(). */
 gvc_result gvc_surface_path_insert(gvc_halfedges *mesh, const gvc_surface_path *path,
                                    uint32_t **vertex, size_t *count, gvc_error *error);
 

@@ -71,7 +71,9 @@ static double box_distance(const gvc_prior *prior, size_t node, const double *po
     const double *low = prior->box + 2 * prior->dimensions * node, *high = low + prior->dimensions;
     double sum = 0;
     for (size_t k = 0; k < prior->dimensions; k++) {
-        double d = point[k] < low[k] ? low[k] - point[k] : point[k] > high[k] ? point[k] - high[k] : 0;
+        double d = point[k] < low[k]    ? low[k] - point[k]
+                   : point[k] > high[k] ? point[k] - high[k]
+                                        : 0;
         sum += d * d;
     }
     return sum;

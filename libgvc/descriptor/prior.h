@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file prior.h
- * Distance from a point to a path in the space of geodesic coordinates (Definition 2), which is what
- * the terms E_p and E_d (Eqs. 7 and 8) compare.
+ * Distance from a point to a path in the space of geodesic coordinates (Definition 2), which is
+ * what the terms E_p and E_d (Eqs. 7 and 8) compare.
  *
- * The coordinates of a point are its normalised geodesic distances to all features, and its position
- * relative to the diagonal at half weight, which resolves what symmetry leaves open.
+ * The coordinates of a point are its normalised geodesic distances to all features, and its
+ * position relative to the diagonal at half weight, which resolves what symmetry leaves open.
  */
 #ifndef GVC_DESCRIPTOR_PRIOR_H
 #define GVC_DESCRIPTOR_PRIOR_H

@@ -36,12 +36,16 @@ typedef struct gvc_extremum {
     double position[3];
     double persistence; /**< of the range of mu: 1 for the global maximum */
     double mu;          /**< normalised */
-    double area; /**< relative area of the limb: where mu is above the saddle at which it merges
-                      with a higher maximum, on the tip's side */
+    double area; /**< relative area of the limb: where mu is above the highest saddle at which it
+                      merges with a higher maximum or with a lower one of persistence 0.2 or more,
+                    on the tip's side; so like limbs have like areas whichever is higher. 1 if there
+                      is no such saddle */
     unsigned valence; /**< of its Reeb graph leaf's first branching node */
 } gvc_extremum;
 
 /** All maxima of persistence >= `least`, most persistent first (ties: smaller vertex first).
+ *  Equal values count as lower the greater the vertex; persistence 0 is never listed. The highest
+ *  maximum of every component has persistence 1. GVC_ERROR_ARGUMENT if mu is not within [0,1].
  * `*list` is freed by the caller with free(). */
 gvc_result gvc_extrema_find(const gvc_halfedges *mesh, const double *mu, double least,
                             gvc_extremum **list, size_t *count, gvc_error *error);

@@ -12,13 +12,14 @@
 
 gvc_result gvc_frame_analyse(gvc_frame_work *work, const gvc_source *source, bool weld,
                              gvc_error *error) {
+    const gvc_features_options options = {.integral_samples = 60, .candidate_persistence = 0.01};
     gvc_result result = gvc_load_frame(source, work->number, weld, &work->mesh, NULL, error);
     if (result == GVC_OK) {
         work->diagonal = gvc_mesh_diagonal(work->mesh);
         result = gvc_halfedges_build(work->mesh, 0, &work->halfedges, error);
     }
     if (result == GVC_OK) {
-        result = gvc_features_find(&work->halfedges, NULL, &work->features, error);
+        result = gvc_features_find(&work->halfedges, &options, &work->features, error);
     }
     return gvc_at_frame(error, result, (int64_t)work->number);
 }

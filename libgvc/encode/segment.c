@@ -139,10 +139,41 @@ static gvc_result sampling_rms(const gvc_segment *segment, const gvc_frame_work 
     return result;
 }
 
+/* Resizing rounds, so the start may no longer be allowed: the nearest that is takes its place. */
+static gvc_result mend_start(gvc_side_table *sides, gvc_error *error) {
+    uint32_t loop = 4 * (sides->size - 1), nearest = loop;
+    size_t count;
+    uint32_t *starts = gvc_alloc(loop, sizeof *starts);
+    if (!starts) return gvc_fail_memory(error);
+    gvc_result result = gvc_layout_starts(sides, starts, &count, error);
+    uint32_t before = sides->start;
+    for (size_t i = 0; result == GVC_OK && i < count; i++) {
+        uint32_t apart = starts[i] > before ? starts[i] - before : before - starts[i];
+        if (loop - apart < apart) apart = loop - apart;
+        if (apart >= nearest) continue;
+        nearest = apart;
+        sides->start = starts[i];
+    }
+    free(starts);
+    if (result == GVC_OK && nearest == loop) {
+        result = gvc_fail(error, GVC_ERROR_MESH,
+                          "no layout of the cut fits an image of %u samples a side", sides->size);
+    }
+    return result;
+}
+
+static gvc_result resize_layout(const gvc_side_table *sides, const gvc_cut_graph *graph,
+                                uint32_t size, gvc_side_table *resized, gvc_error *error) {
+    GVC_TRY(gvc_layout_resize(sides, graph, size, resized, error));
+    gvc_result result = mend_start(resized, error);
+    if (result != GVC_OK) gvc_side_table_free(resized);
+    return result;
+}
+
 gvc_result gvc_segment_sampling_rms(const gvc_segment *segment, const gvc_frame_work *work,
                                     uint32_t size, size_t samples, double *rms, gvc_error *error) {
     gvc_side_table sides = {0};
-    gvc_result result = gvc_layout_resize(&segment->sides, &work->graph, size, &sides, error);
+    gvc_result result = resize_layout(&segment->sides, &work->graph, size, &sides, error);
     if (result == GVC_OK) {
         result = sampling_rms(segment, work, &sides, true, samples, rms, error);
     }
@@ -208,7 +239,7 @@ static gvc_result edge_lengths(const gvc_frame_work *work, double **length, gvc_
 gvc_result gvc_segment_resize(gvc_segment *segment, const gvc_frame_work *work, uint32_t size,
                               gvc_error *error) {
     gvc_side_table resized = {0};
-    GVC_TRY(gvc_layout_resize(&segment->sides, &work->graph, size, &resized, error));
+    GVC_TRY(resize_layout(&segment->sides, &work->graph, size, &resized, error));
     gvc_side_table_free(&segment->sides);
     gvc_weld_free(&segment->weld);
     segment->sides = resized;

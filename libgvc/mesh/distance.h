@@ -27,7 +27,8 @@ bool gvc_bvh_closest(const gvc_bvh *bvh, const double point[3], const double *no
                      gvc_closest *closest);
 
 /** `count` points spread over the surface by area, deterministically: a low-discrepancy sequence
- * over the cumulated areas. `points` has room for 3 * count. */
+ * over the cumulated areas; consecutive points lie on the same or consecutive faces. `points` has
+ * room for 3 * count. GVC_ERROR_MESH if the area is zero or overflows, unless `count` is 0. */
 gvc_result gvc_mesh_sample(const gvc_mesh *mesh, size_t count, double *points, gvc_error *error);
 
 #endif

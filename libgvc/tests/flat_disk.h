@@ -30,12 +30,17 @@ static gvc_result flat_disk_make(uint32_t n, double jitter, uint32_t size, flat_
                                  gvc_disk *disk, double **uv, gvc_error *error) {
     gvc_mesh *mesh = NULL;
     memset(disk, 0, sizeof *disk);
+    *uv = NULL;
     GVC_TRY(gvc_mesh_allocate((size_t)n * n, 2 * (size_t)(n - 1) * (n - 1), &mesh, error));
     *uv = malloc(2 * (size_t)n * n * sizeof **uv);
     disk->original = malloc((size_t)n * n * sizeof *disk->original);
     disk->border_count = 4 * (size_t)(n - 1);
     disk->border = malloc(disk->border_count * sizeof *disk->border);
     disk->border_length = calloc(disk->border_count, sizeof *disk->border_length);
+    if (!*uv || !disk->original || !disk->border || !disk->border_length) {
+        gvc_mesh_destroy(&mesh);
+        return gvc_fail_memory(error);
+    }
     for (uint32_t i = 0; i < n * n; i++) {
         uint32_t x = i % n, y = i / n;
         int inner = x > 0 && y > 0 && x + 1 < n && y + 1 < n;
