@@ -11,6 +11,7 @@
 #include "codec/h264.h"
 #include "file.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -32,6 +33,8 @@ struct gvc_decoder {
     bool shape_known;
     uint64_t shape_from;
     gvc_weld *weld; /* one per chart of `shape` */
+
+    uint16_t *codes; /* handed out by gvc_decoder_codes */
 };
 
 static void forget_shape(gvc_decoder *decoder) {
@@ -97,6 +100,7 @@ void gvc_decoder_destroy(gvc_decoder **decoder) {
     gvc_h264_decoder_destroy(&(*decoder)->h264);
     gvc_buffer_free(&(*decoder)->sample);
     free((*decoder)->luma);
+    free((*decoder)->codes);
     free(*decoder);
     *decoder = NULL;
 }
@@ -247,15 +251,61 @@ static gvc_result rebuild_frame(gvc_decoder *decoder, const uint8_t expected[8],
     return result;
 }
 
-gvc_result gvc_decoder_frame(gvc_decoder *decoder, uint64_t frame, gvc_mesh **mesh,
-                             gvc_error *error) {
+/* The error is about the frame asked for; if it lies with another that this one needs, that is
+ * said, too. */
+static gvc_result fail_frame(gvc_error *error, gvc_result result, uint64_t frame) {
+    if (result == GVC_OK || !error) return result;
+    int64_t other = error->frame;
+    error->frame = (int64_t)frame;
+    (void)gvc_explain(error, result);
+    if (other != GVC_NO_FRAME && other != (int64_t)frame) {
+        size_t length = strlen(error->message);
+        snprintf(error->message + length, sizeof error->message - length,
+                 " (of frame %lld, which is needed)", (long long)other);
+    }
+    return result;
+}
+
+/* Leaves picture and shape of `frame` in the decoder. */
+static gvc_result seek(gvc_decoder *decoder, uint64_t frame, gvc_shape_frame *facts,
+                       gvc_error *error) {
     size_t fragment;
-    gvc_shape_frame facts;
-    *mesh = NULL;
     GVC_TRY(gvc_reader_find(decoder->reader, frame, &fragment, error));
     gvc_result result = seek_picture(decoder, fragment, frame, error);
-    if (result == GVC_OK) result = seek_shape(decoder, fragment, frame, &facts, error);
+    if (result == GVC_OK) result = seek_shape(decoder, fragment, frame, facts, error);
     if (result != GVC_OK) forget_fragment(decoder);
+    return result;
+}
+
+gvc_result gvc_decoder_frame(gvc_decoder *decoder, uint64_t frame, gvc_mesh **mesh,
+                             gvc_error *error) {
+    gvc_shape_frame facts;
+    *mesh = NULL;
+    gvc_result result = seek(decoder, frame, &facts, error);
     if (result == GVC_OK) result = rebuild_frame(decoder, facts.digest, mesh, error);
-    return gvc_at_frame(error, result, (int64_t)frame);
+    return fail_frame(error, result, frame);
+}
+
+static gvc_result cut_chart(gvc_decoder *decoder, size_t chart, uint32_t *size, gvc_error *error) {
+    if (chart >= decoder->shape.chart_count) {
+        return gvc_fail(error, GVC_ERROR_ARGUMENT, "the frame has no chart %zu", chart);
+    }
+    const gvc_chart_shape *shape = &decoder->shape.chart[chart];
+    *size = shape->sides.size;
+    decoder->codes = gvc_alloc((size_t)*size * *size, 3 * sizeof *decoder->codes);
+    if (!decoder->codes) return gvc_fail_memory(error);
+    gvc_picture_cut(decoder->layout, decoder->luma, shape->x, shape->y, *size,
+                    decoder->reader->demux.config.code_shift, decoder->codes);
+    return GVC_OK;
+}
+
+gvc_result gvc_decoder_codes(gvc_decoder *decoder, uint64_t frame, size_t chart,
+                             const uint16_t **plane, uint32_t *size, gvc_error *error) {
+    gvc_shape_frame facts;
+    free(decoder->codes);
+    decoder->codes = NULL;
+    gvc_result result = seek(decoder, frame, &facts, error);
+    if (result == GVC_OK) result = cut_chart(decoder, chart, size, error);
+    *plane = decoder->codes;
+    return fail_frame(error, result, frame);
 }

@@ -114,7 +114,7 @@ static gvc_result flush_group(encoder *e, gvc_error *error) {
     if (group->count == 0) return GVC_OK;
     double rms;
     bool held;
-    GVC_TRY(gvc_rate_code(group, &e->options, &e->crf, &rms, &held, error));
+    GVC_TRY(gvc_rate_code(group, e->source, &e->options, &e->crf, &rms, &held, error));
     if (isnan(e->options.crf) && !held) {
         char message[160];
         snprintf(message, sizeof message,
@@ -150,8 +150,7 @@ static gvc_result flush_group(encoder *e, gvc_error *error) {
 static gvc_result choose_size(encoder *e, const gvc_frame_work *work, gvc_error *error) {
     static const uint32_t candidate[] = {48,  64,  80,  96,  112, 128, 144,           160,
                                          192, 224, 256, 320, 384, 448, LARGEST_CHOSEN};
-    const gvc_encode_options *o = &e->options;
-    double asked = o->max_rms_length > 0 ? o->max_rms_length / work->diagonal : o->max_rms;
+    double asked = gvc_rms_asked(&e->options, work->diagonal);
     size_t low = 0, high = sizeof candidate / sizeof *candidate - 1; /* errors fall with the size */
     while (low < high) {
         size_t middle = (low + high) / 2;
@@ -259,17 +258,8 @@ static gvc_result add_images(encoder *e, size_t first, size_t end, gvc_error *er
         }
         return result;
     }
-    uint64_t last = e->source->frame_count - group->first_frame;
-    size_t expected = last < group->capacity ? (size_t)last : group->capacity;
-    for (size_t i = first; i < end; i++) {
-        gvc_group_frame *frame = &group->frame[group->count];
-        if (gvc_rate_measures(group->count, expected)) {
-            frame->original = e->work[i].mesh;
-            e->work[i].mesh = NULL;
-        }
-        group->count++;
-        gvc_frame_free(&e->work[i]);
-    }
+    group->count += end - first;
+    for (size_t i = first; i < end; i++) gvc_frame_free(&e->work[i]);
     return group->count == group->capacity ? flush_group(e, error) : GVC_OK;
 }
 
@@ -303,7 +293,11 @@ static gvc_result encode_run(encoder *e, size_t first, size_t *end, gvc_error *e
 static gvc_result encode_batch(encoder *e, gvc_error *error) {
     gvc_result result = gvc_parallel_for(e->options.threads, e->batch_count, analyse_one, e, error);
     size_t next = 0;
-    while (result == GVC_OK && next < e->batch_count) result = encode_run(e, next, &next, error);
+    while (result == GVC_OK && next < e->batch_count) {
+        /* nothing new is done, but this is where a long group can be cancelled */
+        result = report_progress(e, e->report.frame_count, error);
+        if (result == GVC_OK) result = encode_run(e, next, &next, error);
+    }
     for (size_t i = 0; i < e->batch_count; i++) gvc_frame_free(&e->work[i]);
     return result;
 }
@@ -349,5 +343,5 @@ gvc_result gvc_encode(const gvc_source *source, const gvc_sink *sink,
     gvc_tracker_destroy(&e->tracker);
     free(e->facts);
     free(e);
-    return result;
+    return gvc_explain(error, result);
 }

@@ -15,7 +15,8 @@ struct gvc_reader {
 };
 
 /** Fragment that holds a frame. GVC_ERROR_ARGUMENT for a frame number past the end,
- * GVC_ERROR_CORRUPT for one that lies in a damaged part. */
+ * GVC_ERROR_CORRUPT for one that lies in a damaged part, GVC_ERROR_TRUNCATED for one that the file
+ * declares but does not reach. */
 gvc_result gvc_reader_find(const gvc_reader *reader, uint64_t frame, size_t *fragment,
                            gvc_error *error);
 
@@ -25,5 +26,12 @@ gvc_result gvc_reader_find(const gvc_reader *reader, uint64_t frame, size_t *fra
 gvc_result gvc_reader_shape(const gvc_reader *reader, size_t fragment, uint64_t frame,
                             gvc_shape *shape, gvc_shape_frame *facts, uint64_t *owner,
                             gvc_error *error);
+
+/** The geometry image of a chart as it comes out of the picture, before twins are welded: `*plane`
+ * points at 3 * size * size 16-bit codes, x plane first, which the decoder owns and keeps until the
+ * next call; NULL on failure. Checksums are verified; the digest, which covers the welded surface,
+ * is not. GVC_ERROR_ARGUMENT for a chart number past the end. */
+gvc_result gvc_decoder_codes(gvc_decoder *decoder, uint64_t frame, size_t chart,
+                             const uint16_t **plane, uint32_t *size, gvc_error *error);
 
 #endif

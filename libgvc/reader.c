@@ -65,7 +65,7 @@ static gvc_result finish_open(gvc_reader *made, gvc_reader **reader, gvc_error *
     }
     if (result != GVC_OK) {
         gvc_reader_close(&made);
-        return result;
+        return gvc_explain(error, result);
     }
     *reader = made;
     return GVC_OK;
@@ -153,9 +153,13 @@ gvc_result gvc_reader_find(const gvc_reader *reader, uint64_t frame, size_t *fra
     gvc_result result = GVC_OK;
     if (low == 0 ||
         frame - demux->fragment[low - 1].first_frame >= demux->fragment[low - 1].frame_count) {
-        bool beyond = low == demux->fragment_count;
-        result = beyond ? gvc_fail(error, GVC_ERROR_ARGUMENT, "there is no such frame in the file")
-                        : gvc_fail(error, GVC_ERROR_CORRUPT, "the frame lies in a damaged part");
+        if (low < demux->fragment_count) {
+            result = gvc_fail(error, GVC_ERROR_CORRUPT, "the frame lies in a damaged part");
+        } else if (frame < demux->config.declared_frames) {
+            result = gvc_fail(error, GVC_ERROR_TRUNCATED, "the frame is missing at the file's end");
+        } else {
+            result = gvc_fail(error, GVC_ERROR_ARGUMENT, "there is no such frame in the file");
+        }
         return gvc_at_frame(error, result, (int64_t)frame);
     }
     *fragment = low - 1;

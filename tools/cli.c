@@ -152,10 +152,11 @@ void cli_catch_signals(void) {
     action.sa_flags = (int)SA_RESETHAND; /* a second signal ends the program at once */
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
-    struct sigaction ignore = {.sa_handler =
-                                   SIG_IGN}; /* a closed pipe is a write error like others */
+    /* A closed pipe and a file too large are write errors like others. */
+    struct sigaction ignore = {.sa_handler = SIG_IGN};
     sigemptyset(&ignore.sa_mask);
     sigaction(SIGPIPE, &ignore, NULL);
+    sigaction(SIGXFSZ, &ignore, NULL);
 }
 
 double cli_now(void) {

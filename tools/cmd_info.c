@@ -89,13 +89,14 @@ static void print_json(const info_arguments *a, const gvc_info *info) {
     cli_json_string(stdout, info->unit);
 }
 
-static void print_frame(const info_arguments *a, uint64_t frame, const gvc_frame_info *f) {
+static void print_frame(const info_arguments *a, uint64_t frame, const gvc_frame_info *f,
+                        bool first) {
     if (a->json) {
         printf("%s\n    {\"frame\": %" PRIu64 ", \"bytes\": %" PRIu64
                ", \"keyframe\": %s, \"segment\": %" PRIu64
                ", \"charts\": %u, \"genus\": %u, \"extrema\": %u, \"nodes\": %u, \"edges\": %u, "
                "\"digest\": \"",
-               frame ? "," : "", frame, f->byte_count, f->keyframe ? "true" : "false", f->segment,
+               first ? "" : ",", frame, f->byte_count, f->keyframe ? "true" : "false", f->segment,
                f->chart_count, f->genus, f->extremum_count, f->node_count, f->edge_count);
         print_digest(f->digest);
         printf("\"}");
@@ -113,12 +114,14 @@ static int print_frames(const info_arguments *a, const gvc_reader *reader, const
     uint64_t count =
         info->declared_count > info->frame_count ? info->declared_count : info->frame_count;
     int status = EXIT_DONE;
+    bool first = true;
     for (uint64_t frame = 0; frame < count; frame++) {
         gvc_frame_info facts;
         gvc_error error;
         gvc_error_init(&error);
         if (gvc_reader_frame_info(reader, frame, &facts, &error) == GVC_OK) {
-            print_frame(a, frame, &facts);
+            print_frame(a, frame, &facts, first);
+            first = false;
             continue;
         }
         status = cli_fail("info", a->input, &error);

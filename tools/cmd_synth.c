@@ -18,7 +18,7 @@ static const char usage[] =
     "      --frames N        how many (default 60)\n"
     "      --vertices N      about so many vertices, 1500 or more (default 6000)\n"
     "      --genus G         handles on the figure, 0 to 4 (default 0)\n"
-    "      --seed S          another dance (default 0)\n"
+    "      --seed S          another dance (default 1)\n"
     "  -f, --force           replace files that exist\n"
     "  -j, --jobs N          threads\n"
     "  -q, --quiet           no progress\n";
@@ -104,6 +104,19 @@ static gvc_result write_one(void *user, size_t index, gvc_error *error) {
     return result;
 }
 
+/* All files are looked for before the first is made. */
+static int check_files(const synth_arguments *a) {
+    for (uint64_t frame = 0; !a->force && frame < a->options.frame_count; frame++) {
+        char *path;
+        if (!pattern_fill(a->output, frame, &path)) return EXIT_DATA;
+        bool there = access(path, F_OK) == 0;
+        if (there) fprintf(stderr, "gvc synth: %s: exists; not overwritten without -f\n", path);
+        free(path);
+        if (there) return EXIT_DATA;
+    }
+    return EXIT_DONE;
+}
+
 static int write_frames(synth_arguments *a) {
     enum { CHUNK = 8 };
     cli_progress progress;
@@ -139,5 +152,6 @@ int cmd_synth(int argc, char **argv) {
     }
     status = cli_make_folder("synth", path);
     free(path);
+    if (status == EXIT_DONE) status = check_files(&arguments);
     return status == EXIT_DONE ? write_frames(&arguments) : status;
 }

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/result.h"
 #include "base/text.h"
+#include "mesh/file.h"
 
 #include <ctype.h>
 #include <dirent.h>
@@ -100,8 +101,7 @@ static bool is_mesh_name(const char *name) {
 }
 
 static gvc_result at_file(gvc_error *error, gvc_result result, const char *path) {
-    if (error) snprintf(error->where, sizeof error->where, "%s", path);
-    return result;
+    return gvc_fail_in(error, result, path);
 }
 
 /* Consecutive numbers from `first` on in the list. */

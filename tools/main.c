@@ -45,7 +45,10 @@ int main(int argc, char **argv) {
         if (strcmp(argv[1], commands[i].name) != 0) continue;
         cli_catch_signals();
         int status = commands[i].run(argc - 1, argv + 1);
-        if (fflush(stdout) != 0 && status == EXIT_DONE) status = EXIT_DATA;
+        if (fflush(stdout) != 0 || ferror(stdout)) {
+            if (status == EXIT_DONE) fprintf(stderr, "gvc: cannot write to standard output\n");
+            if (status == EXIT_DONE) status = EXIT_DATA;
+        }
         return status;
     }
     fprintf(stderr, "gvc: there is no command '%s'\n\n", argv[1]);

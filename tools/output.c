@@ -2,6 +2,7 @@
 /** @file output.c  Output files that appear under their name only when whole. */
 #include "base/result.h"
 #include "cli.h"
+#include "mesh/file.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -13,7 +14,7 @@
 static bool fail(const cli_output *output, const char *what, gvc_error *error) {
     int reason = errno;
     (void)gvc_fail(error, GVC_ERROR_IO, "%s: %s", what, strerror(reason));
-    snprintf(error->where, sizeof error->where, "%s", output->path);
+    (void)gvc_fail_in(error, GVC_ERROR_IO, output->path);
     return false;
 }
 
@@ -23,6 +24,12 @@ static bool exists(const cli_output *output, gvc_error *error) {
     errno = EEXIST;
     fail(output, "not overwritten without -f", error);
     return true;
+}
+
+/* A device or pipe is written to, not replaced by a file. */
+static bool is_stream(const char *path) {
+    struct stat status;
+    return stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
 }
 
 bool cli_output_open(cli_output *output, const char *path, bool overwrite, gvc_error *error) {
@@ -38,6 +45,15 @@ bool cli_output_open(cli_output *output, const char *path, bool overwrite, gvc_e
     if (!output->path || !output->temporary) {
         cli_output_discard(output);
         (void)gvc_fail_memory(error);
+        return false;
+    }
+    if (is_stream(path)) {
+        free(output->temporary);
+        output->temporary = NULL;
+        output->file = fopen(path, "wb");
+        if (output->file) return true;
+        fail(output, "cannot write", error);
+        cli_output_discard(output);
         return false;
     }
     if (exists(output, error)) {
@@ -89,7 +105,8 @@ bool cli_output_commit(cli_output *output, gvc_error *error) {
         (void)gvc_fail(error, GVC_ERROR_IO, "cannot write to standard output: %s", strerror(errno));
         return false;
     }
-    bool written = fflush(output->file) == 0 && fsync(fileno(output->file)) == 0;
+    bool written = fflush(output->file) == 0;
+    if (output->temporary) written = written && fsync(fileno(output->file)) == 0;
     int reason = errno;
     bool closed = fclose(output->file) == 0;
     output->file = NULL;
@@ -97,6 +114,7 @@ bool cli_output_commit(cli_output *output, gvc_error *error) {
         if (!written) errno = reason;
         return fail(output, "cannot write", error);
     }
+    if (!output->temporary) return true;
     if (!give_name(output)) return fail(output, "cannot name the finished file", error);
     free(output->temporary);
     output->temporary = NULL;

@@ -67,3 +67,12 @@ gvc_result gvc_at_frame(gvc_error *error, gvc_result result, int64_t frame) {
     if (result != GVC_OK && error && error->frame == GVC_NO_FRAME) error->frame = frame;
     return result;
 }
+
+gvc_result gvc_explain(gvc_error *error, gvc_result result) {
+    if (result == GVC_OK || !error) return result;
+    error->code = result;
+    if (error->message[0] == '\0') {
+        snprintf(error->message, sizeof error->message, "%s", gvc_result_string(result));
+    }
+    return result;
+}

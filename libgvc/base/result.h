@@ -17,6 +17,10 @@ gvc_result gvc_fail_memory(gvc_error *error);
  */
 gvc_result gvc_at_frame(gvc_error *error, gvc_result result, int64_t frame);
 
+/** Fills the code and message of a failed result that came without, as from a caller's callback
+ * that does not explain itself; returns `result`. */
+gvc_result gvc_explain(gvc_error *error, gvc_result result);
+
 /** Returns early with a failed result; use only where nothing has to be freed. */
 #define GVC_TRY(expression)                                                                        \
     do {                                                                                           \

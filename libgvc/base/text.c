@@ -150,20 +150,28 @@ static double convert_slowly(const decimal *number) {
     return strtod(text, NULL);
 }
 
+/** mantissa * 10^exponent where that takes no text. False, leaving `value`, elsewhere. */
+static bool convert_quickly(uint64_t mantissa, int64_t exponent, double *value) {
+    /* Both operands exact, so the one operation rounds correctly (Clinger 1990). */
+    bool exact = mantissa <= (uint64_t)1 << DBL_MANT_DIG;
+    if (exact && exponent >= 0 && exponent <= 22)
+        *value = (double)mantissa * exact_power[exponent];
+    else if (exact && exponent < 0 && exponent >= -22)
+        *value = (double)mantissa / exact_power[-exponent];
+#ifdef HAVE_WIDE
+    else if (mantissa && exponent >= -27 && exponent <= 27)
+        *value = scale_wide(mantissa, (int)exponent);
+#endif
+    else
+        return false;
+    return true;
+}
+
 static double convert(const decimal *number) {
     if (number->mantissa == 0) return 0;
-    if (number->digits <= 19) {
-        /* Both operands exact, so the one operation rounds correctly (Clinger 1990). */
-        bool exact = number->mantissa <= (uint64_t)1 << DBL_MANT_DIG;
-        if (exact && number->exponent >= 0 && number->exponent <= 22)
-            return (double)number->mantissa * exact_power[number->exponent];
-        if (exact && number->exponent < 0 && number->exponent >= -22)
-            return (double)number->mantissa / exact_power[-number->exponent];
-#ifdef HAVE_WIDE
-        if (number->exponent >= -27 && number->exponent <= 27)
-            return scale_wide(number->mantissa, (int)number->exponent);
-#endif
-    }
+    double value;
+    bool whole = number->digits <= 19; /* the mantissa has them all */
+    if (whole && convert_quickly(number->mantissa, number->exponent, &value)) return value;
     return convert_slowly(number);
 }
 
@@ -332,26 +340,30 @@ static uint64_t round_digits(double magnitude, int leading, int precision, int *
 #endif
 }
 
+/** "digits" "e" "exponent": a number without a decimal point, which the locale could change. */
+static void write_plain(char *text, uint64_t digits, int exponent) {
+    text += gvc_format_uint(text, digits);
+    *text++ = 'e';
+    if (exponent < 0) *text++ = '-';
+    gvc_format_uint(text, (uint64_t)(exponent < 0 ? -exponent : exponent));
+}
+
 /** Whether digits * 10^exponent reads as the same double or, if `is_float`, as the same float. */
-static bool reads_back(uint64_t digits, int precision, int exponent, double magnitude,
-                       bool is_float) {
-    char figure[48];
-    decimal number = {.mantissa = digits, .digits = precision, .exponent = exponent};
-    number.first = figure;
-    number.last = figure + gvc_format_uint(figure, digits);
-    double again = convert(&number);
-    if (!is_float) return again == magnitude;
-    uint64_t bits;
-    memcpy(&bits, &again, sizeof bits);
-    const uint64_t dropped = (UINT64_C(1) << (DBL_MANT_DIG - FLT_MANT_DIG)) - 1;
-    bool half_way = (bits & dropped) == dropped / 2 + 1;
-    if (!half_way && fabs(again) >= (double)FLT_MIN) return (float)again == (float)magnitude;
-    /* The decimal may lie on either side of the double half-way between two floats. */
-    char *p = figure + gvc_format_uint(figure, digits);
-    *p++ = 'e';
-    if (exponent < 0) *p++ = '-';
-    gvc_format_uint(p, (uint64_t)(exponent < 0 ? -exponent : exponent));
-    return strtof(figure, NULL) == (float)magnitude;
+static bool reads_back(uint64_t digits, int exponent, double magnitude, bool is_float) {
+    char plain[48];
+    double again;
+    bool quick = convert_quickly(digits, exponent, &again);
+    if (quick && !is_float) return again == magnitude;
+    if (quick && again >= (double)FLT_MIN) {
+        uint64_t bits;
+        memcpy(&bits, &again, sizeof bits);
+        /* Unless `again` is half-way between two floats, where the decimal may be on either side.
+         */
+        const uint64_t dropped = (UINT64_C(1) << (DBL_MANT_DIG - FLT_MANT_DIG)) - 1;
+        if ((bits & dropped) != dropped / 2 + 1) return (float)again == (float)magnitude;
+    }
+    write_plain(plain, digits, exponent);
+    return is_float ? strtof(plain, NULL) == (float)magnitude : strtod(plain, NULL) == magnitude;
 }
 
 static size_t format_magnitude(char *text, bool negative, double magnitude, bool is_float) {
@@ -364,7 +376,7 @@ static size_t format_magnitude(char *text, bool negative, double magnitude, bool
                               ? print_digits(magnitude, precision, &exponent)
                               : round_digits(magnitude, leading, precision, &exponent);
         if (precision < last &&
-            !reads_back(digits, precision, exponent - (precision - 1), magnitude, is_float))
+            !reads_back(digits, exponent - (precision - 1), magnitude, is_float))
             continue;
         int needed = precision;
         uint64_t kept = digits;

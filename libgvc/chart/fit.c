@@ -15,7 +15,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define SPACING 0.7         /* greatest distance of quadrature points in a face, in pixels */
+#define SPACING 0.5         /* greatest distance of quadrature points in a face, in pixels */
 #define PARAMETER_SHARE .05 /* weight of the parameter domain's area beside the surface's area */
 #define TOLERANCE 1e-6
 #define MOST_ITERATIONS 200

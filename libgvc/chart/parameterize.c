@@ -20,6 +20,7 @@
 
 typedef struct solver {
     const gvc_disk *disk;
+    double square;    /* area of the parameter domain */
     double *weight;   /* per halfedge from i to j: w_ij, of mean value coordinates */
     double *scale;    /* per vertex j: factor of all w_ij in the next solve */
     double *uv;       /* solution of the last solve; border as given */
@@ -49,7 +50,7 @@ static void solver_free(solver *s) {
 /* ------------------------------------------------------------------------------------- weights */
 
 /** Tangent of half the angle at the start of `h` in its face, kept off 0 and infinity so that
- * degenerate faces do not stop the solver; `length`s are of h and of the face's previous edge. */
+ * degenerate faces do not stop the solver. */
 static double half_tangent(const gvc_halfedges *m, uint32_t h) {
     const double *p = m->position + 3 * m->vertex[h];
     const double *q = m->position + 3 * m->vertex[gvc_next(h)];
@@ -223,19 +224,18 @@ static size_t count_flips(const gvc_halfedges *m, const double *uv) {
 }
 
 /** L2 stretch of the whole map, 1 for an isometry up to size. */
-static double total_stretch(const gvc_halfedges *m, const double *uv) {
-    double sum = 0, area = 0, plane = 0;
+static double total_stretch(const gvc_halfedges *m, const double *uv, double square) {
+    double sum = 0, area = 0;
     for (size_t f = 0; f < m->face_count; f++) {
         face_stretch face = measure_face(m, uv, f);
         sum += face.area * face.squared;
         area += face.area;
-        plane += face.plane;
     }
-    return area > 0 ? sqrt(sum / area * fmax(plane, 0) / area) : 1;
+    return area > 0 ? sqrt(sum / area * square / area) : 1;
 }
 
 /** Yoshizawa et al. 2004, Eq. 6: neighbours in stretched places pull less, so their places grow.
- * Writes s->scale from the map in s->uv; `curvature` may be NULL. */
+ * Writes s->scale from the stretch per vertex; `curvature` may be NULL. */
 static void stretch_scale(solver *s, const double *sigma, double eta, const double *curvature,
                           double kp) {
     for (size_t v = 0; v < s->disk->mesh.vertex_count; v++) {
@@ -246,19 +246,19 @@ static void stretch_scale(solver *s, const double *sigma, double eta, const doub
 
 /** Stretch per vertex: root of the area-weighted mean of the squared stretch around. `sigma` has
  * been zeroed; `area` is scratch for as many doubles. */
-static void vertex_stretch(const gvc_halfedges *m, const double *uv, double *area, double *sigma) {
-    double total = 0, plane = 0;
+static void vertex_stretch(const gvc_halfedges *m, const double *uv, double square, double *area,
+                           double *sigma) {
+    double total = 0;
     memset(area, 0, m->vertex_count * sizeof *area);
     for (size_t f = 0; f < m->face_count; f++) {
         face_stretch face = measure_face(m, uv, f);
         total += face.area;
-        plane += face.plane;
         for (int k = 0; k < 3; k++) {
             sigma[m->vertex[3 * f + k]] += face.area * face.squared;
             area[m->vertex[3 * f + k]] += face.area;
         }
     }
-    double scale = total > 0 ? fmax(plane, 0) / total : 1;
+    double scale = total > 0 ? square / total : 1;
     for (size_t v = 0; v < m->vertex_count; v++) {
         double squared = area[v] > 0 ? sigma[v] / area[v] * scale : 1;
         sigma[v] = fmin(fmax(sqrt(squared), 1e-6), 1e30);
@@ -281,7 +281,7 @@ static gvc_result attempt(solver *s, const gvc_parameterize_options *options,
     for (size_t v = 0; v < n; v++) s->scale[v] = 1;
     GVC_TRY(solve(s, s->weight, error));
     memcpy(mean_value, s->uv, 2 * n * sizeof *mean_value);
-    vertex_stretch(m, mean_value, s->scale, sigma);
+    vertex_stretch(m, mean_value, s->square, s->scale, sigma);
     if (bends) GVC_TRY(gvc_curvature(s->disk, curvature, error));
 
     for (report->fallback = ASKED_FOR;; report->fallback++) {
@@ -312,9 +312,8 @@ static gvc_result attempt(solver *s, const gvc_parameterize_options *options,
 gvc_result gvc_parameterize(const gvc_disk *disk, uint32_t size,
                             const gvc_parameterize_options *options, double *uv,
                             gvc_parameterize_report *report, gvc_error *error) {
-    (void)size;
     size_t n = disk->mesh.vertex_count;
-    solver s = {0};
+    solver s = {.square = (size - 1.0) * (size - 1.0)};
     gvc_parameterize_report made = {0};
     gvc_result result = GVC_OK;
     double *mean_value = gvc_alloc(2 * n, sizeof *mean_value);
@@ -337,7 +336,7 @@ gvc_result gvc_parameterize(const gvc_disk *disk, uint32_t size,
         goto cleanup;
     }
     memcpy(uv, s.uv, 2 * n * sizeof *uv);
-    made.stretch = total_stretch(&disk->mesh, uv);
+    made.stretch = total_stretch(&disk->mesh, uv, s.square);
     if (report) *report = made;
 cleanup:
     solver_free(&s);

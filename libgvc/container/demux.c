@@ -59,9 +59,10 @@ static gvc_result parse_head(gvc_parser *parser, uint64_t *end, gvc_error *error
         case GVC_BOX_MOOF:
         case GVC_BOX_MDAT:
         case GVC_BOX_MFRA:
-            return gvc_box_fail(&box, error, has_brand ? GVC_ERROR_CORRUPT : GVC_ERROR_UNSUPPORTED,
-                                "moov must come before this box%s",
-                                has_brand ? "" : ", and the file lacks the brand gvc1");
+            if (!has_brand) {
+                return gvc_box_fail(&box, error, GVC_ERROR_UNSUPPORTED, GVC_NO_BRAND_MESSAGE);
+            }
+            return gvc_box_fail(&box, error, GVC_ERROR_CORRUPT, "moov must come before this box");
         default:
             break;
         }

@@ -9,6 +9,41 @@
 
 #include "container/config.h"
 
+/* Structure of a file (ISO/IEC 14496-12; * marks what this format adds). Boxes not named here are
+ * skipped at every level, but nothing may stand behind mfra, and mdat follows its moof at once. A
+ * box of size 0 ("to the end of the file") is refused: a cut would not be noticed.
+ *
+ *   ftyp                     brand gvc1, as major or compatible one
+ *   moov
+ *     mvhd
+ *     trak  geometry         tkhd, edts/elst, mdia/minf/stbl/stsd/avc1 { avcC, colr, gvcC* }
+ *     trak  shape            tkhd, tref/cdsc -> geometry, .../stsd/urim { uri  "urn:gvc:shape:0" }
+ *     mvex                   mehd if the number of frames is known, trex for both tracks
+ *     gcrc*                  last child: CRC-32 from the file's first byte up to its own CRC field
+ *   per group of frames:
+ *   moof
+ *     mfhd
+ *     traf  for each of both tracks: tfhd (default-base-is-moof), tfdt, one trun,
+ *           gcks*            CRC-32 (u32) of each sample, in the order of trun
+ *     gcrc*                  last child: CRC-32 from moof's first byte up to its own CRC field
+ *   mdat                     samples of shape, then of geometry, in trun's order, no other byte
+ *   mfra
+ *     tfra                   of geometry: one entry per fragment
+ *     gcrc*                  CRC-32 from mfra's first byte up to its own CRC field
+ *     mfro                   last
+ *
+ * gcrc and gcks are FullBoxes of version 0. The CRC-32 is that of gvc_crc32. Every byte of a file
+ * is thus covered by a checksum or compared exactly.
+ *
+ * Both tracks have timescale frame_rate_num, and every sample lasts frame_rate_den. The number of
+ * the frame that a sample belongs to is
+ *   (decoding time + composition offset - media_time of the track's edit list, or 0) /
+ *   frame_rate_den,
+ * a whole number. In a fragment of n frames whose tfdt is the time of frame f, the numbers of each
+ * track are f .. f + n - 1 in some order, and the first sample is a sync sample. Fragments follow
+ * each other without gap from frame 0. A fragment of other tracks only (sound) is ignored; one that
+ * mixes them with these is refused. */
+
 typedef enum gvc_track_kind {
     GVC_TRACK_GEOMETRY = 0,
     GVC_TRACK_SHAPE = 1,
@@ -53,7 +88,8 @@ typedef struct gvc_demux {
 /** Parses the whole structure (not the sample data). Without options->keep_going the first defect
  * is an error with offset and box path; with it, damage is listed, and parsing goes on at the next
  * moof found by its type and checksum. A file without shape track gets an error that says that a
- * remuxer dropped it. */
+ * remuxer dropped it. `options` must not be NULL. GVC_ERROR_LIMIT if index and boxes, or one
+ * picture, take more than options->max_memory. On failure `demux` is empty. */
 gvc_result gvc_demux_open(const gvc_io *io, const gvc_read_options *options, gvc_demux *demux,
                           gvc_error *error);
 void gvc_demux_free(gvc_demux *demux);

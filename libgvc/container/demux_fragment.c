@@ -114,7 +114,7 @@ static gvc_result read_run_head(gvc_parser *parser, const gvc_box *traf, track_r
 static gvc_result read_order(const gvc_parser *parser, const track_run *run, uint32_t i,
                              int64_t ticks, uint32_t *shown, gvc_error *error) {
     uint32_t duration = parser->demux->config.frame_rate_den;
-    int64_t place = (int64_t)i + ticks / (int64_t)duration;
+    int64_t place = (int64_t)i + ticks / (int64_t)duration - run->defaults.shown_later;
     if (ticks % (int64_t)duration != 0 || place < 0 || place >= (int64_t)run->count ||
         parser->met[place]) {
         return gvc_box_fail(&run->trun, error, GVC_ERROR_CORRUPT,

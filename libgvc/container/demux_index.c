@@ -29,16 +29,18 @@ static uint32_t read_number(gvc_cursor *cursor, unsigned size) {
 }
 
 /** Whether the next entry points at the first sample of a fragment's geometry. */
-static bool entry_matches(const gvc_demux *demux, const gvc_fragment_entry *fragment,
+static bool entry_matches(const gvc_parser *parser, const gvc_fragment_entry *fragment,
                           gvc_cursor *cursor, uint8_t version, uint32_t sizes) {
+    const gvc_demux *demux = parser->demux;
     const gvc_sample_entry *first =
         &demux->sample[GVC_TRACK_GEOMETRY][fragment->first_sample[GVC_TRACK_GEOMETRY]];
+    uint64_t shown = first->presentation + parser->track[GVC_TRACK_GEOMETRY].shown_later;
     uint64_t time = version == 1 ? gvc_read_u64(cursor) : gvc_read_u32(cursor);
     uint64_t offset = version == 1 ? gvc_read_u64(cursor) : gvc_read_u32(cursor);
     read_number(cursor, (sizes >> 4 & 3) + 1); /* number of traf: they may stand in any order */
     uint32_t trun = read_number(cursor, (sizes >> 2 & 3) + 1);
     uint32_t sample = read_number(cursor, (sizes & 3) + 1);
-    return !cursor->failed && time == first->presentation * demux->config.frame_rate_den &&
+    return !cursor->failed && time == shown * demux->config.frame_rate_den &&
            offset == fragment->offset && trun == 1 && sample == 1;
 }
 
@@ -55,7 +57,7 @@ static gvc_result compare_entries(const gvc_parser *parser, gvc_box *tfra, uint8
                             demux->fragment_count);
     }
     for (size_t i = 0; i < count; i++) {
-        if (!entry_matches(demux, &demux->fragment[i], cursor, version, sizes)) {
+        if (!entry_matches(parser, &demux->fragment[i], cursor, version, sizes)) {
             return gvc_box_fail(tfra, error, GVC_ERROR_CORRUPT,
                                 "entry %zu of the index does not match its fragment", i);
         }

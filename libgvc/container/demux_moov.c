@@ -8,7 +8,9 @@
 /** What matters of a track. */
 typedef struct track_facts {
     bool is_geometry, is_shape;
+    bool is_avc; /**< avc1, whether or not it is ours */
     uint32_t track_id, timescale, described_track;
+    uint64_t media_time; /**< composition time at which the edit list lets the movie begin */
     gvc_box avcc, gvcc;
 } track_facts;
 
@@ -70,6 +72,7 @@ static gvc_result read_sample_entry(const gvc_box *stbl, uint32_t handler, track
     if (handler == GVC_HANDLER_VIDEO && entry.type == GVC_BOX_AVC1) {
         gvc_skip(&entry.content, GVC_AVC1_FIELDS);
         GVC_TRY(gvc_box_check(&entry, error));
+        facts->is_avc = true;
         GVC_TRY(gvc_box_find(&entry, GVC_BOX_GVCC, false, &facts->gvcc, error));
         facts->is_geometry = facts->gvcc.type != 0;
         if (!facts->is_geometry) return GVC_OK;
@@ -98,6 +101,27 @@ static gvc_result refuse_plain_samples(const gvc_box *stbl, gvc_error *error) {
                         count);
 }
 
+/** The edit list, if there is one, may only shift the beginning: frames are numbered by it. */
+static gvc_result read_edit(const gvc_box *trak, uint64_t *media_time, gvc_error *error) {
+    gvc_box edts, elst;
+    uint8_t version;
+    uint32_t flags;
+    GVC_TRY(gvc_box_find(trak, GVC_BOX_EDTS, false, &edts, error));
+    if (!edts.type) return GVC_OK;
+    GVC_TRY(gvc_box_find(&edts, GVC_BOX_ELST, false, &elst, error));
+    if (!elst.type) return GVC_OK;
+    GVC_TRY(gvc_box_version(&elst, 1, &version, &flags, error));
+    uint32_t count = gvc_read_u32(&elst.content);
+    gvc_skip(&elst.content, version == 1 ? 8 : 4); /* duration */
+    *media_time = version == 1 ? gvc_read_u64(&elst.content) : gvc_read_u32(&elst.content);
+    uint64_t empty = version == 1 ? UINT64_MAX : UINT32_MAX;
+    uint32_t rate = gvc_read_u32(&elst.content);
+    GVC_TRY(gvc_box_check(&elst, error));
+    if (count == 1 && *media_time != empty && rate == 0x10000) return GVC_OK;
+    return gvc_box_fail(&elst, error, GVC_ERROR_UNSUPPORTED,
+                        "an edit list that does more than shift the beginning");
+}
+
 static gvc_result read_track(const gvc_box *trak, track_facts *facts, gvc_error *error) {
     gvc_box mdia, minf, stbl, tref, cdsc;
     uint32_t handler;
@@ -110,6 +134,7 @@ static gvc_result read_track(const gvc_box *trak, track_facts *facts, gvc_error 
     if (!facts->is_geometry && !facts->is_shape) return GVC_OK;
     GVC_TRY(read_after_times(trak, GVC_BOX_TKHD, &facts->track_id, error));
     GVC_TRY(read_after_times(&mdia, GVC_BOX_MDHD, &facts->timescale, error));
+    GVC_TRY(read_edit(trak, &facts->media_time, error));
     GVC_TRY(refuse_plain_samples(&stbl, error));
     if (facts->track_id == 0) {
         return gvc_box_fail(trak, error, GVC_ERROR_CORRUPT, "a track has the number 0");
@@ -122,9 +147,10 @@ static gvc_result read_track(const gvc_box *trak, track_facts *facts, gvc_error 
 }
 
 static gvc_result read_tracks(const gvc_box *moov, track_facts *geometry, track_facts *shape,
-                              gvc_error *error) {
+                              bool *has_avc, gvc_error *error) {
     gvc_box rest = *moov, trak;
     *geometry = *shape = (track_facts){0};
+    *has_avc = false;
     while (gvc_cursor_left(&rest.content)) {
         track_facts facts;
         GVC_TRY(gvc_box_next(&rest, &trak, error));
@@ -134,6 +160,7 @@ static gvc_result read_tracks(const gvc_box *moov, track_facts *geometry, track_
             return gvc_box_fail(&trak, error, GVC_ERROR_CORRUPT, "a second %s track",
                                 facts.is_shape ? "shape" : "geometry");
         }
+        if (facts.is_avc) *has_avc = true;
         if (facts.is_geometry) *geometry = facts;
         if (facts.is_shape) *shape = facts;
     }
@@ -141,16 +168,16 @@ static gvc_result read_tracks(const gvc_box *moov, track_facts *geometry, track_
 }
 
 static gvc_result check_tracks(const gvc_box *moov, const track_facts *geometry,
-                               const track_facts *shape, bool has_brand, gvc_error *error) {
-    if (geometry->is_geometry && !shape->is_shape) {
+                               const track_facts *shape, bool has_avc, bool has_brand,
+                               gvc_error *error) {
+    /* Tools that drop the shape track may drop gvcC as well, or the brand, but hardly both. */
+    if (!shape->is_shape && (geometry->is_geometry || (has_avc && has_brand))) {
         return gvc_box_fail(moov, error, GVC_ERROR_CORRUPT,
                             "the shape track is missing; a tool that copied only the video "
                             "dropped it");
     }
     if (!has_brand) {
-        return gvc_fail(error, GVC_ERROR_UNSUPPORTED,
-                        "a media file without the brand gvc1: not a .gvc file, or one that a tool "
-                        "copied without its shape track");
+        return gvc_box_fail(moov, error, GVC_ERROR_UNSUPPORTED, GVC_NO_BRAND_MESSAGE);
     }
     if (!geometry->is_geometry) {
         return gvc_box_fail(moov, error, GVC_ERROR_CORRUPT,
@@ -187,7 +214,9 @@ static gvc_result read_defaults(const gvc_box *mvex, gvc_track_defaults *track, 
                                 description);
         }
         found = true;
-        *track = (gvc_track_defaults){track_id, duration, size, sample_flags};
+        track->duration = duration;
+        track->size = size;
+        track->flags = sample_flags;
     }
     if (found) return GVC_OK;
     return gvc_box_fail(mvex, error, GVC_ERROR_CORRUPT, "track %u has no trex box",
@@ -225,12 +254,28 @@ static gvc_result read_config(gvc_parser *parser, const track_facts *geometry, g
     return GVC_OK;
 }
 
+/** Notes number and shift of a track. */
+static gvc_result keep_track(gvc_parser *parser, const gvc_box *moov, const track_facts *facts,
+                             gvc_track_kind kind, gvc_error *error) {
+    uint32_t duration = parser->demux->config.frame_rate_den;
+    uint64_t frames = facts->media_time / duration;
+    if (facts->media_time % duration != 0 || frames > INT32_MAX) {
+        return gvc_box_fail(moov, error, GVC_ERROR_CORRUPT,
+                            "track %u begins at time %llu, which is no frame", facts->track_id,
+                            (unsigned long long)facts->media_time);
+    }
+    parser->track[kind].track_id = facts->track_id;
+    parser->track[kind].shown_later = (uint32_t)frames;
+    return GVC_OK;
+}
+
 static gvc_result read_content(gvc_parser *parser, const gvc_box *moov, bool has_brand,
                                gvc_error *error) {
     track_facts geometry, shape;
     gvc_box mvex;
-    GVC_TRY(read_tracks(moov, &geometry, &shape, error));
-    GVC_TRY(check_tracks(moov, &geometry, &shape, has_brand, error));
+    bool has_avc;
+    GVC_TRY(read_tracks(moov, &geometry, &shape, &has_avc, error));
+    GVC_TRY(check_tracks(moov, &geometry, &shape, has_avc, has_brand, error));
     GVC_TRY(read_config(parser, &geometry, error));
     uint32_t timescale = parser->demux->config.frame_rate_num;
     if (geometry.timescale != timescale || shape.timescale != timescale) {
@@ -238,8 +283,8 @@ static gvc_result read_content(gvc_parser *parser, const gvc_box *moov, bool has
                             "timescales %u and %u; the frame rate asks for %u", geometry.timescale,
                             shape.timescale, timescale);
     }
-    parser->track[GVC_TRACK_GEOMETRY].track_id = geometry.track_id;
-    parser->track[GVC_TRACK_SHAPE].track_id = shape.track_id;
+    GVC_TRY(keep_track(parser, moov, &geometry, GVC_TRACK_GEOMETRY, error));
+    GVC_TRY(keep_track(parser, moov, &shape, GVC_TRACK_SHAPE, error));
     GVC_TRY(gvc_box_find(moov, GVC_BOX_MVEX, true, &mvex, error));
     GVC_TRY(read_defaults(&mvex, &parser->track[GVC_TRACK_GEOMETRY], error));
     return read_defaults(&mvex, &parser->track[GVC_TRACK_SHAPE], error);

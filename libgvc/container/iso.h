@@ -19,6 +19,8 @@
 #define GVC_BOX_MVHD GVC_FOURCC('m', 'v', 'h', 'd')
 #define GVC_BOX_TRAK GVC_FOURCC('t', 'r', 'a', 'k')
 #define GVC_BOX_TKHD GVC_FOURCC('t', 'k', 'h', 'd')
+#define GVC_BOX_EDTS GVC_FOURCC('e', 'd', 't', 's')
+#define GVC_BOX_ELST GVC_FOURCC('e', 'l', 's', 't')
 #define GVC_BOX_TREF GVC_FOURCC('t', 'r', 'e', 'f')
 #define GVC_BOX_CDSC GVC_FOURCC('c', 'd', 's', 'c')
 #define GVC_BOX_MDIA GVC_FOURCC('m', 'd', 'i', 'a')

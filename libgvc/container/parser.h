@@ -14,6 +14,7 @@
 typedef struct gvc_track_defaults {
     uint32_t track_id;
     uint32_t duration, size, flags;
+    uint32_t shown_later; /**< from the edit list: frames that composition offsets are too great */
 } gvc_track_defaults;
 
 typedef struct gvc_parser {
@@ -54,6 +55,10 @@ gvc_result gvc_parser_damage(gvc_parser *parser, uint64_t offset, uint64_t size,
 
 /** Which of our tracks has this number; GVC_TRACK_KINDS if none. */
 gvc_track_kind gvc_parser_kind(const gvc_parser *parser, uint32_t track_id);
+
+#define GVC_NO_BRAND_MESSAGE                                                                       \
+    "a media file without the brand gvc1: not a .gvc file, or one that a tool copied without its " \
+    "shape track"
 
 /* The steps, each given the header of its box. */
 

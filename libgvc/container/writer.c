@@ -13,7 +13,7 @@
 /** What mfra will say of a fragment. */
 typedef struct index_entry {
     uint64_t offset; /**< of its moof */
-    uint64_t time;   /**< presentation time of its first sample */
+    uint64_t time;   /**< composition time of its first sample, in ticks */
 } index_entry;
 
 struct gvc_writer {
@@ -87,15 +87,22 @@ static gvc_result sum_sizes(const gvc_sample *sample, size_t count, uint64_t *su
     return GVC_OK;
 }
 
+/** Composition offset as trun holds it. */
+static int64_t offset_ticks(const gvc_writer *writer, uint32_t track, const gvc_sample *sample) {
+    int64_t frames = sample->composition_offset;
+    if (track == GVC_GEOMETRY_TRACK) frames += GVC_SHOWN_LATER;
+    return frames * writer->frame_duration;
+}
+
 /** The composition offsets of a track must make its frames a permutation, and fit trun. */
-static gvc_result check_order(const gvc_writer *writer, const gvc_sample *sample, size_t count,
-                              gvc_error *error) {
+static gvc_result check_order(const gvc_writer *writer, uint32_t track, const gvc_sample *sample,
+                              size_t count, gvc_error *error) {
     uint8_t *met = gvc_alloc(count, 1);
     if (!met) return gvc_fail_memory(error);
     gvc_result result = GVC_OK;
     for (size_t i = 0; i < count; i++) {
         int64_t shown = (int64_t)i + sample[i].composition_offset;
-        int64_t ticks = (int64_t)sample[i].composition_offset * writer->frame_duration;
+        int64_t ticks = offset_ticks(writer, track, &sample[i]);
         if (shown < 0 || shown >= (int64_t)count || met[shown]) {
             result = gvc_fail(error, GVC_ERROR_ARGUMENT,
                               "the composition offsets do not order %zu samples", count);
@@ -125,7 +132,7 @@ static gvc_result check_fragment(const gvc_writer *writer, const gvc_fragment *f
                         (unsigned long long)fragment->first_frame,
                         (unsigned long long)writer->next_frame);
     }
-    if (fragment->first_frame > UINT64_MAX / writer->frame_duration - count) {
+    if (fragment->first_frame > UINT64_MAX / writer->frame_duration - count - GVC_SHOWN_LATER) {
         return gvc_fail(error, GVC_ERROR_LIMIT, "frame %llu does not fit in time",
                         (unsigned long long)fragment->first_frame);
     }
@@ -134,24 +141,25 @@ static gvc_result check_fragment(const gvc_writer *writer, const gvc_fragment *f
     }
     GVC_TRY(sum_sizes(fragment->shape, count, shape_bytes, error));
     GVC_TRY(sum_sizes(fragment->geometry, count, geometry_bytes, error));
-    GVC_TRY(check_order(writer, fragment->shape, count, error));
-    return check_order(writer, fragment->geometry, count, error);
+    GVC_TRY(check_order(writer, GVC_SHAPE_TRACK, fragment->shape, count, error));
+    return check_order(writer, GVC_GEOMETRY_TRACK, fragment->geometry, count, error);
 }
 
 /** Flags of trun, as few fields per sample as tell all. */
-static uint32_t run_flags(const gvc_sample *sample, size_t count) {
+static uint32_t run_flags(const gvc_writer *writer, uint32_t track, const gvc_sample *sample,
+                          size_t count) {
     uint32_t flags = GVC_TRUN_DATA_OFFSET | GVC_TRUN_FIRST_FLAGS | GVC_TRUN_SIZE;
     for (size_t i = 0; i < count; i++) {
-        if (sample[i].composition_offset) flags |= GVC_TRUN_COMPOSITION;
+        if (offset_ticks(writer, track, &sample[i])) flags |= GVC_TRUN_COMPOSITION;
         if (i && sample[i].sync) flags = (flags & ~GVC_TRUN_FIRST_FLAGS) | GVC_TRUN_FLAGS;
     }
     return flags;
 }
 
 /** Returns the position of the data offset, which is patched when moof's size is known. */
-static size_t write_trun(const gvc_writer *writer, const gvc_sample *sample, size_t count,
-                         gvc_buffer *buffer) {
-    uint32_t flags = run_flags(sample, count);
+static size_t write_trun(const gvc_writer *writer, uint32_t track, const gvc_sample *sample,
+                         size_t count, gvc_buffer *buffer) {
+    uint32_t flags = run_flags(writer, track, sample, count);
     size_t trun = gvc_box_begin_full(buffer, GVC_BOX_TRUN, 1, flags);
     gvc_write_u32(buffer, (uint32_t)count);
     size_t data_offset = buffer->size;
@@ -163,7 +171,7 @@ static size_t write_trun(const gvc_writer *writer, const gvc_sample *sample, siz
             gvc_write_u32(buffer, sample[i].sync ? GVC_FLAGS_SYNC : GVC_FLAGS_NON_SYNC);
         }
         if (flags & GVC_TRUN_COMPOSITION) {
-            int64_t ticks = (int64_t)sample[i].composition_offset * writer->frame_duration;
+            int64_t ticks = offset_ticks(writer, track, &sample[i]);
             gvc_write_u32(buffer, (uint32_t)(int32_t)ticks);
         }
     }
@@ -180,7 +188,7 @@ static size_t write_traf(const gvc_writer *writer, uint32_t track, const gvc_sam
     size_t tfdt = gvc_box_begin_full(buffer, GVC_BOX_TFDT, 1, 0);
     gvc_write_u64(buffer, writer->next_frame * writer->frame_duration);
     gvc_box_end(buffer, tfdt);
-    size_t data_offset = write_trun(writer, sample, count, buffer);
+    size_t data_offset = write_trun(writer, track, sample, count, buffer);
     size_t gcks = gvc_box_begin_full(buffer, GVC_BOX_GCKS, 0, 0);
     for (size_t i = 0; i < count; i++) {
         gvc_write_u32(buffer, gvc_crc32(0, sample[i].data, sample[i].size));
@@ -232,17 +240,17 @@ static gvc_result put_samples(gvc_writer *writer, const gvc_sample *sample, size
 }
 
 gvc_result gvc_writer_fragment(gvc_writer *writer, const gvc_fragment *fragment, gvc_error *error) {
-    uint64_t shape_bytes, geometry_bytes;
+    uint64_t shape_bytes = 0, geometry_bytes = 0;
     GVC_TRY(check_fragment(writer, fragment, &shape_bytes, &geometry_bytes, error));
     GVC_TRY(build_moof(writer, fragment, shape_bytes, geometry_bytes, error));
     if (!gvc_grow((void **)&writer->entry, &writer->entry_capacity, writer->entry_count + 1,
                   sizeof *writer->entry)) {
         return gvc_fail_memory(error);
     }
-    uint64_t first_shown =
-        fragment->first_frame + (uint64_t)fragment->geometry[0].composition_offset;
+    int64_t shown = offset_ticks(writer, GVC_GEOMETRY_TRACK, &fragment->geometry[0]);
     writer->entry[writer->entry_count] =
-        (index_entry){.offset = writer->byte_count, .time = first_shown * writer->frame_duration};
+        (index_entry){.offset = writer->byte_count,
+                      .time = fragment->first_frame * writer->frame_duration + (uint64_t)shown};
     writer->closed = true; /* unless all of it gets out */
     GVC_TRY(put_buffer(writer, error));
     GVC_TRY(put_samples(writer, fragment->shape, fragment->frame_count, error));

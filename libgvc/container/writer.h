@@ -2,7 +2,7 @@
 /**
  * @file writer.h
  * Writes a `.gvc` file front to back: ftyp, moov, one moof + mdat per group of frames, mfra. Never
- * seeks.
+ * seeks. demux.h describes what it writes.
  */
 #ifndef GVC_CONTAINER_WRITER_H
 #define GVC_CONTAINER_WRITER_H
@@ -22,18 +22,23 @@ typedef struct gvc_sample {
 
 /** One fragment: a group of frames. Both tracks have one sample per frame. */
 typedef struct gvc_fragment {
-    uint64_t first_frame; /**< decoding time of the first sample, in frames */
+    uint64_t first_frame; /**< decoding time of the first sample, in frames; fragments follow each
+                             other without gap from 0 */
     size_t frame_count;
     const gvc_sample *geometry; /**< in decoding order */
     const gvc_sample *shape;    /**< in presentation order */
 } gvc_fragment;
 
-/** Writes ftyp and moov at once. `avc_config` is the content of avcC. */
+/** Writes ftyp and moov at once. `avc_config` is the content of avcC. GVC_ERROR_ARGUMENT for a
+ * configuration that gvc_config_read would refuse. */
 gvc_result gvc_writer_create(const gvc_sink *sink, const gvc_config *config,
                              const uint8_t *avc_config, size_t avc_config_size, gvc_writer **writer,
                              gvc_error *error);
+/** Writes moof and mdat. GVC_ERROR_ARGUMENT, before anything is written, if the first samples are
+ * not sync, a sample is empty, or the composition offsets do not permute the frames. After the sink
+ * failed nothing more can be written. */
 gvc_result gvc_writer_fragment(gvc_writer *writer, const gvc_fragment *fragment, gvc_error *error);
-/** Writes the index (mfra). */
+/** Writes the index (mfra). GVC_ERROR_ARGUMENT if frames declared are missing. */
 gvc_result gvc_writer_finish(gvc_writer *writer, gvc_error *error);
 uint64_t gvc_writer_byte_count(const gvc_writer *writer);
 void gvc_writer_destroy(gvc_writer **writer);

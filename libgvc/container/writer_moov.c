@@ -53,6 +53,18 @@ static void write_tkhd(uint32_t track, uint32_t width, uint32_t height, gvc_buff
     gvc_box_end(buffer, box);
 }
 
+/** One edit: the movie begins where the first picture is shown. */
+static void write_edts(const gvc_config *config, gvc_buffer *buffer) {
+    size_t edts = gvc_box_begin(buffer, GVC_BOX_EDTS);
+    size_t elst = gvc_box_begin_full(buffer, GVC_BOX_ELST, 1, 0);
+    gvc_write_u32(buffer, 1);
+    gvc_write_u64(buffer, 0); /* duration: up to the end of the fragments */
+    gvc_write_u64(buffer, (uint64_t)GVC_SHOWN_LATER * config->frame_rate_den);
+    gvc_write_u32(buffer, 0x10000); /* rate 1 */
+    gvc_box_end(buffer, elst);
+    gvc_box_end(buffer, edts);
+}
+
 static void write_mdhd(const gvc_config *config, gvc_buffer *buffer) {
     size_t box = gvc_box_begin_full(buffer, GVC_BOX_MDHD, 0, 0);
     write_zeros(buffer, 8);
@@ -145,6 +157,7 @@ static void write_geometry_trak(const gvc_config *config, const uint8_t *avc_con
     static const char name[] = "gvc geometry images";
     size_t trak = gvc_box_begin(buffer, GVC_BOX_TRAK);
     write_tkhd(GVC_GEOMETRY_TRACK, config->picture_width, 3 * config->plane_height, buffer);
+    write_edts(config, buffer);
     size_t mdia = gvc_box_begin(buffer, GVC_BOX_MDIA);
     write_mdhd(config, buffer);
     write_hdlr(GVC_HANDLER_VIDEO, name, sizeof name, buffer);

@@ -12,9 +12,9 @@ static const gvc_edge_end no_end = {GVC_NONE, 0};
 /* Paths that reach an edge this close to a node (in diagonals) start from the node: a shorter edge
  * would be stretched over the two pixels it needs at least. */
 static const double node_reach = 0.02;
-/* Standard deviation of E_d and E_p in normalised coordinates, and where their exponents level off.
- */
-static const double deviation = 0.03, greatest_exponent = 50;
+/* Standard deviation of E_d and E_p in normalised coordinates, less round a narrow handle: at most
+ * this part of the length of the path. And where the exponents level off. */
+static const double usual_deviation = 0.05, handle_deviation = 0.1, greatest_exponent = 50;
 /* A path is given up if its mean distance to the one before is over this. */
 static const double greatest_departure = 0.15;
 
@@ -58,6 +58,12 @@ cleanup:
     return result;
 }
 
+static double chain_length(const gvc_routing *r, const uint32_t *chain, size_t count) {
+    double length = 0;
+    for (size_t i = 0; i + 1 < count; i++) length += gap(r->mesh, chain[i], chain[i + 1]);
+    return length;
+}
+
 /* Keeps in the link where its path and its first node are in this frame. */
 static gvc_result remember(const gvc_routing *r, gvc_link *link, const uint32_t *chain,
                            size_t count, gvc_error *error) {
@@ -69,6 +75,11 @@ static gvc_result remember(const gvc_routing *r, gvc_link *link, const uint32_t 
         for (size_t i = 0; i < count; i++) point[i] = (gvc_surface_point){chain[i], GVC_NONE, 0};
         gvc_coordinates_of_vertex(r->mesh, &r->coordinates, chain[0], link->junction);
         result = set_prior(r, point, count, &link->prior, error);
+        link->deviation = usual_deviation;
+        if (link->tip == GVC_NONE)
+            link->deviation =
+                fmin(link->deviation,
+                     handle_deviation * chain_length(r, chain, count) / r->coordinates.diagonal);
     }
     free(point);
     return result;
@@ -273,12 +284,11 @@ cleanup:
 typedef struct evidence {
     const gvc_coordinates *coordinates;
     const gvc_prior *previous, *shortest;
-    double previous_weight, shortest_weight;
+    double previous_weight, shortest_weight, variance;
     double *point; /* room for one */
 } evidence;
 
-static double exponent(const gvc_prior *prior, const double *point) {
-    const double variance = deviation * deviation;
+static double exponent(const gvc_prior *prior, const double *point, double variance) {
     return gvc_prior_distance(prior, point, greatest_exponent * variance) / variance;
 }
 
@@ -287,8 +297,10 @@ static double evidence_weight(const void *context, const double position[3],
     const evidence *e = context;
     double weight = 0;
     gvc_coordinates_get(e->coordinates, position, attribute, e->point);
-    if (e->previous_weight > 0) weight += e->previous_weight * exponent(e->previous, e->point);
-    if (e->shortest_weight > 0) weight += e->shortest_weight * exponent(e->shortest, e->point);
+    if (e->previous_weight > 0)
+        weight += e->previous_weight * exponent(e->previous, e->point, e->variance);
+    if (e->shortest_weight > 0)
+        weight += e->shortest_weight * exponent(e->shortest, e->point, e->variance);
     return weight;
 }
 
@@ -296,11 +308,13 @@ static double evidence_weight(const void *context, const double position[3],
 static gvc_result best_path(gvc_routing *r, const gvc_link *link, gvc_surface_path *path,
                             gvc_error *error) {
     gvc_prior shortest = {0};
+    double variance = link->deviation * link->deviation;
     evidence e = {&r->coordinates,
                   &link->prior,
                   &shortest,
                   r->options->prior_weight,
                   r->options->shortest_weight,
+                  variance,
                   NULL};
     gvc_result result = GVC_OK;
     e.point = gvc_alloc(r->coordinates.dimension, sizeof *e.point);
@@ -350,8 +364,7 @@ cleanup:
 /* ------------------------------------------------------------------------------ handles as links
  */
 
-gvc_result gvc_link_of_edge(const gvc_routing *r, uint32_t edge, gvc_link *link, bool *possible,
-                            gvc_error *error) {
+gvc_result gvc_link_of_edge(const gvc_routing *r, uint32_t edge, gvc_link *link, gvc_error *error) {
     const gvc_cut_edge *e = &r->graph->edge[edge];
     gvc_cut_graph before = *r->graph;
     before.edge_count = edge;
@@ -360,7 +373,5 @@ gvc_result gvc_link_of_edge(const gvc_routing *r, uint32_t edge, gvc_link *link,
         uint32_t h = gvc_edge_end_halfedge(r->mesh, r->graph, (gvc_edge_end){edge, i});
         link->after[i] = gvc_edge_end_before(r->mesh, &before, e->node[i], h);
     }
-    *possible = e->node[0] != e->node[1] || link->after[0].edge != link->after[1].edge ||
-                link->after[0].end != link->after[1].end;
     return remember(r, link, e->vertex, e->vertex_count, error);
 }

@@ -22,6 +22,7 @@ typedef struct gvc_link {
     gvc_edge_end
         after[2];     /**< at each: the edge end that comes before the path counter-clockwise */
     double *junction; /**< coordinates of the first node in the frame before */
+    double deviation; /**< of E_d and E_p, in normalised coordinates */
     gvc_prior prior;  /**< the path in the frame before */
 } gvc_link;
 
@@ -47,10 +48,9 @@ gvc_result gvc_link_nearest(gvc_routing *routing, gvc_link *link, gvc_error *err
  * one far from where it was. */
 gvc_result gvc_link_again(gvc_routing *routing, gvc_link *link, bool *kept, gvc_error *error);
 
-/** Makes a link of an edge of a graph that came about in another way: as if the edges before it had
- *  been there and those after it had not. `*possible` is false for an edge whose two ends lie in
- * one sector of one node. */
+/** Makes a link of an edge, between two different nodes, of a graph that came about in another way:
+ * as if the edges before it had been there and those after it had not. */
 gvc_result gvc_link_of_edge(const gvc_routing *routing, uint32_t edge, gvc_link *link,
-                            bool *possible, gvc_error *error);
+                            gvc_error *error);
 
 #endif

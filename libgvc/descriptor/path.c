@@ -392,6 +392,11 @@ static int role_at(const gvc_surface_path *path, size_t i) {
     return i == 0 ? GVC_CORNER_SOURCE : i + 1 == path->count ? GVC_CORNER_TARGET : GVC_CORNER_FREE;
 }
 
+static bool joined_by_wall(const gvc_pathfinder *f, uint32_t a, uint32_t b) {
+    uint32_t h = a == b ? GVC_NONE : gvc_halfedge_between(f->mesh, a, b);
+    return h != GVC_NONE && f->wall[f->edge[h]];
+}
+
 /* From each point goes straight to the last one that lies on a face with it. A weighted path may
  * come back to a face, even cross itself there; afterwards each face holds at most one piece of the
  * path, which is what insertion needs. */
@@ -399,15 +404,16 @@ static void straighten(gvc_pathfinder *f, gvc_surface_path *path) {
     uint32_t none = GVC_NONE;
     for (size_t i = 0; i < path->count; i++)
         visit_faces(f, &path->point[i], role_at(path, i), note_last, &none);
-    for (uint32_t i = 0; i < path->count; i++)
-        visit_faces(f, &path->point[i], role_at(path, i), note_last, &i);
+    /* Both ends may be joined by an edge of the graph: the path must not fall on it. */
+    bool ends_joined = joined_by_wall(f, path->point[0].a, path->point[path->count - 1].a);
     size_t count = 0, total = path->count;
+    for (uint32_t i = 0; i < total; i++)
+        visit_faces(f, &path->point[i], role_at(path, i), note_last, &i);
     for (uint32_t i = 0;;) {
-        gvc_surface_point point = path->point[i];
         uint32_t furthest = i;
-        int role = role_at(path, i);
-        visit_faces(f, &point, role, take_last, &furthest);
-        path->point[count++] = point;
+        visit_faces(f, &path->point[i], role_at(path, i), take_last, &furthest);
+        if (i == 0 && furthest + 1 == total && ends_joined) furthest = (uint32_t)total - 2;
+        path->point[count++] = path->point[i];
         if (i + 1 >= total || furthest <= i) break;
         i = furthest;
     }

@@ -67,6 +67,13 @@ gvc_result gvc_prior_set(gvc_prior *prior, size_t dimensions, const double *poin
     return GVC_OK;
 }
 
+void gvc_prior_move(gvc_prior *prior, void (*move)(const void *context, double *point),
+                    const void *context) {
+    for (size_t s = 0; s <= GVC_PRIOR_SEGMENTS; s++)
+        move(context, prior->sample + s * prior->dimensions);
+    build_boxes(prior);
+}
+
 static double box_distance(const gvc_prior *prior, size_t node, const double *point) {
     const double *low = prior->box + 2 * prior->dimensions * node, *high = low + prior->dimensions;
     double sum = 0;

@@ -29,6 +29,10 @@ void gvc_prior_free(gvc_prior *prior);
 gvc_result gvc_prior_set(gvc_prior *prior, size_t dimensions, const double *point,
                          const double *length, size_t count, gvc_error *error);
 
+/** Moves every point of the path: `move` changes the coordinates of one. */
+void gvc_prior_move(gvc_prior *prior, void (*move)(const void *context, double *point),
+                    const void *context);
+
 /** Squared distance to the path, or `limit` if that is smaller. */
 double gvc_prior_distance(const gvc_prior *prior, const double *point, double limit);
 

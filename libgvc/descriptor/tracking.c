@@ -25,10 +25,10 @@ struct gvc_tracker {
     gvc_tracker_options options;
     gvc_pathfinder *finder;
     bool started;
-    bool trackable; /* false for a graph that can only start a segment */
     size_t genus;
-    double
-        diagonal; /* of the segment's first frame: positions must not scale from frame to frame */
+    /* Of the segment's first frame: each frame is compared with the one before it, and a
+     * normalisation of its own would only add the noise of two greatest distances. */
+    double diagonal, scale;
     size_t tip_count,
         matched_count;  /* tips made up for want of extrema come after the matched ones */
     gvc_extremum *tip;  /* as last seen */
@@ -95,6 +95,7 @@ static gvc_result attach_coordinates(workspace *w, const gvc_tracker *t,
     GVC_TRY(gvc_coordinates_attach(w->routing.mesh, features, t->tip_count + 1,
                                    &w->routing.coordinates, error));
     w->routing.coordinates.diagonal = t->diagonal;
+    w->routing.coordinates.scale = t->scale;
     return GVC_OK;
 }
 
@@ -112,20 +113,16 @@ static void remember_points(gvc_tracker *t, const workspace *w) {
         gvc_coordinates_of_vertex(r->mesh, &r->coordinates, w->base[i], t->base_point + i * n);
 }
 
-/* Checks that the graph opens the surface to one disk; `*side` is freed by the caller. */
+/* Walks the border of the opened surface; `*disk` tells whether that is one disk. `*side` is freed
+ * by the caller. */
 static gvc_result walk_border(const gvc_tracker *t, const workspace *w, gvc_border_side **side,
-                              size_t *count, gvc_error *error) {
+                              size_t *count, bool *disk, gvc_error *error) {
     const gvc_cut_graph *graph = w->routing.graph;
     *side = gvc_alloc(2 * graph->edge_count, sizeof **side);
     if (!*side) return gvc_fail_memory(error);
     GVC_TRY(gvc_cut_graph_walk(w->routing.mesh, graph, *side, count, error));
-    if (*count != 2 * graph->edge_count ||
-        graph->node_count + 2 * t->genus != graph->edge_count + 1)
-        return gvc_fail(
-            error, GVC_ERROR_INTERNAL,
-            "the cut graph has %zu nodes, %zu edges and a border of %zu sides, which is "
-            "no disk on a surface of genus %zu",
-            graph->node_count, graph->edge_count, *count, t->genus);
+    *disk = *count == 2 * graph->edge_count &&
+            graph->node_count + 2 * t->genus == graph->edge_count + 1;
     return GVC_OK;
 }
 
@@ -173,6 +170,19 @@ static gvc_result make_up_tips(gvc_tracker *t, const gvc_halfedges *mesh, uint32
     return GVC_OK;
 }
 
+/* An edge that returns to its node gets a node in the middle, without which it could not be found
+ * again: there would be no telling its two ends apart. */
+static gvc_result split_loops(gvc_cut_graph *graph, gvc_error *error) {
+    size_t count = graph->edge_count;
+    for (uint32_t e = 0; e < count; e++) {
+        const gvc_cut_edge *edge = &graph->edge[e];
+        uint32_t node;
+        if (edge->node[0] == edge->node[1])
+            GVC_TRY(gvc_cut_graph_split_edge(graph, e, edge->vertex_count / 2, &node, error));
+    }
+    return GVC_OK;
+}
+
 /* The initial graph: the root, or a graph that cuts the handles, whose node nearest to the root of
  * `features` becomes the root. */
 static gvc_result begin_graph(gvc_tracker *t, const gvc_features *features, workspace *w,
@@ -185,6 +195,7 @@ static gvc_result begin_graph(gvc_tracker *t, const gvc_features *features, work
         return gvc_cut_graph_add_node(graph, root, &t->root, error);
     }
     GVC_TRY(gvc_handles_cut(t->finder, w->routing.mesh, features->root, graph, error));
+    GVC_TRY(split_loops(graph, error));
     position = w->routing.mesh->position;
     double least = INFINITY;
     const double *p = position + 3 * (size_t)features->root;
@@ -220,12 +231,8 @@ static gvc_result make_room(gvc_tracker *t, workspace *w, gvc_error *error) {
 
 static gvc_result link_everything(gvc_tracker *t, workspace *w, gvc_error *error) {
     size_t base_edges = w->routing.graph->edge_count;
-    t->trackable = true;
-    for (uint32_t e = 0; e < base_edges; e++) {
-        bool possible = true;
-        GVC_TRY(gvc_link_of_edge(&w->routing, e, &t->link[t->link_count++], &possible, error));
-        if (!possible) t->trackable = false;
-    }
+    for (uint32_t e = 0; e < base_edges; e++)
+        GVC_TRY(gvc_link_of_edge(&w->routing, e, &t->link[t->link_count++], error));
     for (size_t i = 0; i < t->tip_count; i++)
         GVC_TRY(gvc_link_nearest(&w->routing, &t->link[t->link_count++], error));
     return GVC_OK;
@@ -235,11 +242,13 @@ gvc_result gvc_tracker_start(gvc_tracker *t, const gvc_features *features, size_
                              gvc_halfedges *mesh, gvc_cut_graph *graph, gvc_error *error) {
     workspace w;
     gvc_result result = GVC_OK;
+    bool disk = false;
     forget(t);
     *graph = (gvc_cut_graph){0};
     workspace_set(&w, t, mesh, graph);
     t->genus = gvc_mesh_genus(mesh);
     t->diagonal = features->diagonal > 0 ? features->diagonal : 1;
+    t->scale = features->geodesic_scale > 0 ? features->geodesic_scale : 1;
     size_t room =
         extremum_count < features->extremum_count ? extremum_count : features->extremum_count;
     t->tip = gvc_alloc(room + 2, sizeof *t->tip);
@@ -253,7 +262,13 @@ gvc_result gvc_tracker_start(gvc_tracker *t, const gvc_features *features, size_
     GVC_CHECK(gvc_coordinates_measure(mesh, &w.routing.coordinates, t->tip_count, &w.base[t->root],
                                       1, error));
     GVC_CHECK(link_everything(t, &w, error));
-    GVC_CHECK(walk_border(t, &w, &t->side, &t->side_count, error));
+    GVC_CHECK(walk_border(t, &w, &t->side, &t->side_count, &disk, error));
+    if (!disk)
+        GVC_CHECK(
+            gvc_fail(error, GVC_ERROR_INTERNAL,
+                     "the cut graph has %zu nodes, %zu edges and a border of %zu sides, which is "
+                     "no disk on a surface of genus %zu",
+                     graph->node_count, graph->edge_count, t->side_count, t->genus));
     remember_points(t, &w);
     t->started = true;
 cleanup:
@@ -329,6 +344,49 @@ static gvc_result find_base(gvc_tracker *t, workspace *w, bool *kept, gvc_error 
     return result;
 }
 
+/* The features' positions in the coordinates of the frame before and of this one. */
+typedef struct motion {
+    size_t count;
+    double *before, *now; /* 3 per feature */
+} motion;
+
+/* Moves the position part of a point's coordinates as the features near it have moved. */
+static void follow(const void *context, double *point) {
+    const motion *m = context;
+    double sum[3] = {0}, total = 0;
+    for (size_t i = 0; i < m->count; i++) {
+        double g = point[i] + 0.02, weight = 1 / (g * g);
+        total += weight;
+        for (size_t k = 0; k < 3; k++)
+            sum[k] += weight * (m->now[3 * i + k] - m->before[3 * i + k]);
+    }
+    for (size_t k = 0; k < 3; k++) point[m->count + k] += sum[k] / total;
+}
+
+/* Lets what is known of the frame before follow the features: what is near a tip that moved is
+ * looked for where it must have gone. */
+static gvc_result follow_features(gvc_tracker *t, const workspace *w, gvc_error *error) {
+    const gvc_coordinates *c = &w->routing.coordinates;
+    double *all = gvc_alloc(6 * c->count + c->dimension, sizeof *all);
+    if (!all) return gvc_fail_memory(error);
+    motion m = {c->count, all, all + 3 * c->count};
+    double *point = all + 6 * c->count;
+    for (size_t i = 0; i < c->count; i++) {
+        const double *before = i < t->tip_count ? t->tip_point + i * c->dimension
+                                                : t->base_point + t->root * c->dimension;
+        uint32_t vertex = i < t->tip_count ? w->tip[i] : w->base[t->root];
+        gvc_coordinates_of_vertex(w->routing.mesh, c, vertex, point);
+        memcpy(m.before + 3 * i, before + c->count, 3 * sizeof *before);
+        memcpy(m.now + 3 * i, point + c->count, 3 * sizeof *point);
+    }
+    for (size_t i = 0; i < t->link_count; i++) {
+        gvc_prior_move(&t->link[i].prior, follow, &m);
+        follow(&m, t->link[i].junction);
+    }
+    free(all);
+    return GVC_OK;
+}
+
 /* Adds the initial nodes, then every link in its turn. */
 static gvc_result place_links(gvc_tracker *t, workspace *w, bool *kept, gvc_error *error) {
     for (uint32_t i = 0; i < t->base_count; i++) {
@@ -344,8 +402,8 @@ static gvc_result place_links(gvc_tracker *t, workspace *w, bool *kept, gvc_erro
 static gvc_result check_border(gvc_tracker *t, const workspace *w, bool *kept, gvc_error *error) {
     gvc_border_side *side = NULL;
     size_t count = 0;
-    gvc_result result = walk_border(t, w, &side, &count, error);
-    *kept = result == GVC_OK && count == t->side_count;
+    gvc_result result = walk_border(t, w, &side, &count, kept, error);
+    *kept = result == GVC_OK && *kept && count == t->side_count;
     for (size_t i = 0; *kept && i < count; i++)
         *kept = side[i].edge == t->side[i].edge && side[i].reversed == t->side[i].reversed;
     free(side);
@@ -369,6 +427,7 @@ static gvc_result track(gvc_tracker *t, const gvc_features *features, workspace 
     if (!*kept || !(*kept = same_shape(t, w))) return GVC_OK;
     GVC_TRY(find_base(t, w, kept, error));
     if (!*kept) return GVC_OK;
+    GVC_TRY(follow_features(t, w, error));
     GVC_TRY(place_links(t, w, kept, error));
     if (!*kept) return GVC_OK;
     GVC_TRY(check_border(t, w, kept, error));
@@ -385,7 +444,7 @@ gvc_result gvc_tracker_next(gvc_tracker *t, const gvc_features *features, gvc_ha
         return gvc_fail(error, GVC_ERROR_ARGUMENT, "there is no earlier frame to track from");
     workspace_set(&w, t, mesh, graph);
     gvc_result result = GVC_OK;
-    *kept = t->trackable && gvc_mesh_genus(mesh) == t->genus;
+    *kept = gvc_mesh_genus(mesh) == t->genus;
     if (*kept) result = track(t, features, &w, kept, error);
     workspace_free(&w);
     if (result != GVC_OK) *kept = false;

@@ -8,7 +8,7 @@
 
 typedef struct gvc_tracker_options {
     double prior_weight;    /**< of E_p (Eq. 8); 1 */
-    double shortest_weight; /**< of E_d (Eq. 7); 0.3 */
+    double shortest_weight; /**< of E_d (Eq. 7); 0.1: at 0.3 the cut wanders a third more */
     double lambda;          /**< Eq. 10; 0.5; 0 cancels the prior on nodes */
 } gvc_tracker_options;
 
@@ -20,7 +20,10 @@ void gvc_tracker_destroy(gvc_tracker **tracker);
 
 /** First frame of a segment. Cuts `mesh` (refining it by splits) from features->root to the
  *  `extremum_count` first extrema of `features`, shortest first (Eq. 5); for a surface with handles
- *  begins with a graph that cuts them. Forgets any earlier frame. */
+ *  begins with a graph that cuts them, whose node nearest to features->root becomes the root.
+ *  Without handles there are at least two tips: the point farthest from the only one (or from the
+ *  root) is added, with the next free number. Extrema that lie on the graph already are left out,
+ * and those after them move up. Forgets any earlier frame. */
 gvc_result gvc_tracker_start(gvc_tracker *tracker, const gvc_features *features,
                              size_t extremum_count, gvc_halfedges *mesh, gvc_cut_graph *graph,
                              gvc_error *error);

@@ -25,7 +25,6 @@ void gvc_group_clear(gvc_group *group) {
     for (size_t i = 0; i < group->count; i++) {
         free(group->frame[i].luma);
         free(group->frame[i].decoded);
-        gvc_mesh_destroy(&group->frame[i].original);
         group->frame[i] = (gvc_group_frame){0};
     }
     group->count = 0;

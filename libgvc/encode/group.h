@@ -8,9 +8,8 @@
 #include "encode/segment.h"
 
 typedef struct gvc_group_frame {
-    uint16_t *luma;     /**< picture to be coded */
-    uint16_t *decoded;  /**< picture that comes out of the decoder; NULL until coded */
-    gvc_mesh *original; /**< kept of a few frames, to measure the error; else NULL */
+    uint16_t *luma;    /**< picture to be coded */
+    uint16_t *decoded; /**< picture that comes out of the decoder; NULL until coded */
 } gvc_group_frame;
 
 typedef struct gvc_group {

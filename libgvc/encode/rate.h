@@ -5,16 +5,14 @@
 
 #include "encode/group.h"
 
-/** True for the frames of a group whose originals are kept to measure the error: `count` frames
- * long. */
-bool gvc_rate_measures(size_t index, size_t count);
-
 /** Codes the group at options->crf or, if that is NaN, at the greatest rate factor whose measured
- * RMS error is within the one asked for, and leaves the result in group->coded. `*crf` is a first
- * guess on entry and what was used on return; `*rms` the measured error as a fraction of the
- * diagonal; `*held` whether it is within the one asked for. The finest quantiser is used if none
- * holds it. */
-gvc_result gvc_rate_code(gvc_group *group, const gvc_encode_options *options, double *crf,
-                         double *rms, bool *held, gvc_error *error);
+ * RMS error is within the one asked for, and leaves the result in group->coded. The error is
+ * measured against the frames of `source`, which are read again. `*crf` is a first guess on entry
+ * and what was used on return; `*rms` the measured error over all frames of the group as a fraction
+ * of the diagonal; `*held` whether it is within the one asked for. The finest quantiser is used if
+ * none holds it. */
+gvc_result gvc_rate_code(gvc_group *group, const gvc_source *source,
+                         const gvc_encode_options *options, double *crf, double *rms, bool *held,
+                         gvc_error *error);
 
 #endif

@@ -3,8 +3,7 @@
 #include "encode/scan.h"
 
 #include "base/parallel.h"
-
-#include <stdio.h>
+#include "mesh/file.h"
 
 #define CHUNK 64 /* frames between two progress reports */
 
@@ -61,7 +60,7 @@ gvc_result gvc_load_frame(const gvc_source *source, uint64_t frame, bool weld, g
         gvc_mesh_destroy(mesh);
         const char *name = source->name ? source->name(source->user, frame) : NULL;
         if (error && name && error->where[0] == '\0') {
-            snprintf(error->where, sizeof error->where, "%s", name);
+            (void)gvc_fail_in(error, result, name);
         }
         return gvc_at_frame(error, result, (int64_t)frame);
     }

@@ -100,12 +100,25 @@ gvc_result gvc_segment_begin(const gvc_source *source, const gvc_encode_options 
 
 /* -------------------------------------------------------------------------------------- layout */
 
+double gvc_rms_asked(const gvc_encode_options *options, double diagonal) {
+    return options->max_rms_length > 0 ? options->max_rms_length / diagonal : options->max_rms;
+}
+
 gvc_result gvc_frame_rms(const gvc_mesh *original, const gvc_mesh *rebuilt, size_t samples,
                          double *rms, gvc_error *error) {
     gvc_distance distance;
-    GVC_TRY(gvc_mesh_distance(original, rebuilt, samples, &distance, error));
-    *rms = fmax(distance.rms[0], distance.rms[1]) / distance.diagonal;
-    return GVC_OK;
+    gvc_error failure;
+    gvc_error_init(&failure);
+    gvc_result result = gvc_mesh_distance(original, rebuilt, samples, &distance, &failure);
+    if (result == GVC_ERROR_MESH) {
+        /* The coarsest quantisers may leave a surface without area, from which no samples can be
+         * taken: nothing of the frame is left. */
+        *rms = 1;
+        return GVC_OK;
+    }
+    if (result == GVC_OK) *rms = fmax(distance.rms[0], distance.rms[1]) / distance.diagonal;
+    if (result != GVC_OK && error) *error = failure;
+    return result;
 }
 
 /* Error of the frame sampled by `sides`, at 16-bit codes. */

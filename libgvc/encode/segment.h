@@ -57,6 +57,9 @@ void gvc_segment_quantise(const gvc_segment *segment, const double *image,
 
 void gvc_segment_free(gvc_segment *segment);
 
+/** RMS error asked for, as a fraction of a frame's diagonal. */
+double gvc_rms_asked(const gvc_encode_options *options, double diagonal);
+
 /** RMS error between a frame's mesh and a rebuilt one, the worse direction, as a fraction of the
  * diagonal. */
 gvc_result gvc_frame_rms(const gvc_mesh *original, const gvc_mesh *rebuilt, size_t samples,

@@ -94,7 +94,8 @@ static void test_refusals(void **state) {
     EXPECT(GVC_ERROR_CORRUPT, config.declared_frames = UINT64_MAX);
     EXPECT(GVC_OK, config.version_minor = 65535);
     EXPECT(GVC_OK, config.picture_width = 65534; config.plane_height = 21844);
-    EXPECT(GVC_OK, config.frame_rate_num = config.frame_rate_den = UINT32_MAX);
+    EXPECT(GVC_OK, config.frame_rate_num = config.frame_rate_den = UINT32_MAX;
+           config.declared_frames = UINT32_MAX);
 #undef EXPECT
 }
 

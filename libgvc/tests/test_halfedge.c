@@ -116,10 +116,9 @@ static void refuses_what_is_not_a_manifold(void **state) {
     check_refused(3, (uint32_t[]){0, 1, 1}, 1, "repeats a vertex");
     check_refused(4, (uint32_t[]){0, 1, 2}, 1, "has no face");
     /* Two closed fans at vertex 0. */
-    check_refused(7,
-                  (uint32_t[]){0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2,
-                               0, 4, 5, 0, 5, 6, 0, 6, 4, 4, 6, 5},
-                  8, "more than one fan");
+    check_refused(
+        7, (uint32_t[]){0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2, 0, 4, 5, 0, 5, 6, 0, 6, 4, 4, 6, 5}, 8,
+        "more than one fan");
 }
 
 static void splits_keep_the_surface(void **state) {
@@ -132,7 +131,8 @@ static void splits_keep_the_surface(void **state) {
         uint32_t face = h / 3, a = m.vertex[h], b = m.vertex[gvc_next(h)];
         double t = 0.25 + 0.5 * (i % 3) / 2, expected[3];
         for (size_t k = 0; k < 3; k++)
-            expected[k] = m.position[3 * a + k] + t * (m.position[3 * b + k] - m.position[3 * a + k]);
+            expected[k] =
+                m.position[3 * a + k] + t * (m.position[3 * b + k] - m.position[3 * a + k]);
         assert_int_equal(gvc_halfedges_split(&m, h, t, &vertex, NULL), GVC_OK);
         assert_int_equal(vertex, m.vertex_count - 1);
         assert_int_equal(h / 3, face);

@@ -97,7 +97,6 @@ static void counts_borders(void **state) {
     assert_int_equal(t.genus, -1);
     assert_int_equal(t.boundary_edge_count, 24);
     assert_int_equal(t.boundary_loop_count, 1);
-    /* Two holes that share a corner are two loops and one pinched vertex less: the fans tell. */
     uint32_t *face = grid->face;
     memset(face + 6 * 7, 0, 6 * sizeof *face); /* quads (1, 1) and (2, 2), as degenerate faces */
     memset(face + 6 * 14, 0, 6 * sizeof *face);
@@ -105,7 +104,7 @@ static void counts_borders(void **state) {
     assert_int_equal(t.degenerate_face_count, 4);
     assert_int_equal(t.boundary_edge_count, 32);
     assert_int_equal(t.nonmanifold_vertex_count, 1);
-    /* Walking around the pinched vertex through each fan joins the two holes to one loop. */
+    /* A border goes on through the fan, so the two holes that touch in a vertex have one loop. */
     assert_int_equal(t.boundary_loop_count, 2);
     assert_int_equal(t.component_count, 1);
     gvc_mesh_destroy(&grid);
@@ -128,8 +127,8 @@ static void counts_what_is_not_manifold(void **state) {
     /* An hourglass: closed, but pinched at vertex 0. */
     uint32_t hourglass[24];
     for (size_t i = 0; i < 24; i++)
-        hourglass[i] = i < 12 || tetrahedron[i % 12] == 0 ? tetrahedron[i % 12]
-                                                          : tetrahedron[i % 12] + 3;
+        hourglass[i] =
+            i < 12 || tetrahedron[i % 12] == 0 ? tetrahedron[i % 12] : tetrahedron[i % 12] + 3;
     t = survey(7, hourglass, 8);
     assert_int_equal(t.boundary_edge_count, 0);
     assert_int_equal(t.nonmanifold_vertex_count, 1);

@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: MIT */
+/** @file make_seeds.c  Writes valid seed inputs for fuzz_container into the folder given, and, for
+ * the replay test, each of them with single bytes changed. */
+#include "container/shape_record.h"
+#include "container/writer.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SIZE 33u
+#define FRAMES 5u
+
+/** Collects what the writer writes. */
+static gvc_result collect(void *user, const void *data, size_t size, gvc_error *error) {
+    (void)error;
+    gvc_write_bytes(user, data, size);
+    return GVC_OK;
+}
+
+/** One chart: a star of four tips. Its parts live in `parts`. */
+typedef struct star_parts {
+    gvc_shape_node node[5];
+    gvc_shape_edge edge[4];
+    uint32_t steps[4];
+    gvc_side side[8];
+    gvc_chart_shape chart;
+} star_parts;
+
+static gvc_shape make_star(star_parts *parts) {
+    *parts = (star_parts){0};
+    for (uint32_t i = 0; i < 4; i++) {
+        parts->node[i + 1] = (gvc_shape_node){1, i};
+        parts->edge[i] = (gvc_shape_edge){{0, i + 1}};
+        parts->steps[i] = (SIZE - 1) / 2;
+        parts->side[2 * i] = (gvc_side){i, false};
+        parts->side[2 * i + 1] = (gvc_side){i, true};
+    }
+    parts->chart = (gvc_chart_shape){.step = 0.001,
+                                     .node_count = 5,
+                                     .edge_count = 4,
+                                     .node = parts->node,
+                                     .edge = parts->edge,
+                                     .sides = {SIZE, 8, 4, parts->steps, 8, parts->side}};
+    return (gvc_shape){.chart_count = 1, .chart = &parts->chart};
+}
+
+static gvc_result write_samples(gvc_writer *writer, const gvc_buffer *first,
+                                const gvc_buffer *same) {
+    static const uint8_t picture[12] = {0, 0, 0, 8, 0x65, 1, 2, 3, 4, 5, 6, 7};
+    static const int32_t order[4] = {0, 2, -1, -1};
+    gvc_sample geometry[4], shape[4];
+    for (size_t i = 0; i < 4; i++) {
+        const gvc_buffer *record = i ? same : first;
+        geometry[i] = (gvc_sample){picture, sizeof picture - i, order[i], i == 0};
+        shape[i] = (gvc_sample){record->data, record->size, 0, i == 0};
+    }
+    gvc_fragment fragment = {0, 4, geometry, shape};
+    GVC_TRY(gvc_writer_fragment(writer, &fragment, NULL));
+    geometry[0].sync = shape[0].sync = true;
+    fragment = (gvc_fragment){4, FRAMES - 4, geometry, shape};
+    GVC_TRY(gvc_writer_fragment(writer, &fragment, NULL));
+    return gvc_writer_finish(writer, NULL);
+}
+
+static gvc_result make_file(const gvc_buffer *first, const gvc_buffer *same, gvc_buffer *file) {
+    static const uint8_t avc[] = {1, 110, 0, 42, 255};
+    gvc_config config = {.version_minor = GVC_FORMAT_MINOR,
+                         .picture_width = 48,
+                         .plane_height = 48,
+                         .image_size = SIZE,
+                         .code_bits = 10,
+                         .code_shift = 6,
+                         .frame_rate_num = 30,
+                         .frame_rate_den = 1,
+                         .declared_frames = FRAMES,
+                         .unit = "m",
+                         .encoder = "seed"};
+    gvc_sink sink = {file, collect};
+    gvc_writer *writer;
+    GVC_TRY(gvc_writer_create(&sink, &config, avc, sizeof avc, &writer, NULL));
+    gvc_result result = write_samples(writer, first, same);
+    gvc_writer_destroy(&writer);
+    return result;
+}
+
+static int save(const char *folder, const char *name, uint8_t option, const gvc_buffer *bytes) {
+    char path[4096];
+    int length = snprintf(path, sizeof path, "%s/%s", folder, name);
+    if (length < 0 || (size_t)length >= sizeof path) return 1;
+    FILE *file = fopen(path, "wb");
+    if (!file) return 1;
+    int failed = fputc(option, file) == EOF;
+    failed |= fwrite(bytes->data, 1, bytes->size, file) != bytes->size;
+    failed |= fclose(file) != 0;
+    return failed;
+}
+
+/** Every `stride`-th byte changed, one per file. */
+static int save_changed(const char *folder, const char *stem, uint8_t option, gvc_buffer *bytes,
+                        size_t stride) {
+    int failed = 0;
+    for (size_t i = 0; i < bytes->size; i += stride) {
+        char name[64];
+        snprintf(name, sizeof name, "%s_%04zu", stem, i);
+        bytes->data[i] ^= (uint8_t)(1u << i % 8);
+        failed |= save(folder, name, option, bytes);
+        bytes->data[i] ^= (uint8_t)(1u << i % 8);
+    }
+    return failed;
+}
+
+int main(int argc, char **argv) {
+    bool changed = argc == 3 && strcmp(argv[2], "--changed") == 0;
+    if (argc != 2 && !changed) {
+        fprintf(stderr, "usage: make_seeds FOLDER [--changed]\n");
+        return 2;
+    }
+    star_parts parts;
+    gvc_shape star = make_star(&parts);
+    gvc_shape_frame frame = {.digest = {1, 2, 3, 4, 5, 6, 7, 8}, .source = "0001.obj"};
+    gvc_shape_frame next = {.same = true, .digest = {8, 7, 6, 5, 4, 3, 2, 1}};
+    gvc_buffer first = {0}, same = {0}, file = {0};
+    int failed = gvc_shape_record_write(&star, &frame, &first, NULL) != GVC_OK ||
+                 gvc_shape_record_write(NULL, &next, &same, NULL) != GVC_OK ||
+                 make_file(&first, &same, &file) != GVC_OK || file.failed;
+    if (!failed) {
+        failed |= save(argv[1], "file", 0, &file);
+        failed |= save(argv[1], "file_keep_going", 1, &file);
+        failed |= save(argv[1], "record", 2, &first);
+        failed |= save(argv[1], "record_same", 2, &same);
+        if (changed) {
+            failed |= save_changed(argv[1], "changed_file", 1, &file, 7);
+            failed |= save_changed(argv[1], "changed_record", 2, &first, 1);
+        }
+    }
+    if (failed) fprintf(stderr, "make_seeds: cannot write to %s\n", argv[1]);
+    gvc_buffer_free(&first);
+    gvc_buffer_free(&same);
+    gvc_buffer_free(&file);
+    return failed;
+}
