@@ -323,7 +323,7 @@ gvc_result gvc_encode(const gvc_source *source, const gvc_sink *sink,
     if (!e) return gvc_fail_memory(error);
     *e = (encoder){.source = source, .sink = sink, .options = *options, .crf = FIRST_CRF};
     gvc_tracker_options tracking = {
-        .prior_weight = options->prior_weight, .shortest_weight = 0.3, .lambda = 0.5};
+        .prior_weight = options->prior_weight, .shortest_weight = 0.1, .lambda = 0.5};
     if (isnan(e->options.curvature_weight)) {
         e->options.curvature_weight = options->max_rms > 7e-4 ? 0 : 0.5;
     }

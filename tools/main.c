@@ -28,7 +28,7 @@ static void print_usage(FILE *file) {
         "\n'gvc COMMAND --help' tells more. Exit status: 0 done, 1 bad data or I/O, 2 usage.\n");
 }
 
-int main(int argc, char **argv) {
+static int run(int argc, char **argv) {
     if (argc < 2) {
         print_usage(stderr);
         return EXIT_USAGE;
@@ -42,16 +42,18 @@ int main(int argc, char **argv) {
         return EXIT_DONE;
     }
     for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
-        if (strcmp(argv[1], commands[i].name) != 0) continue;
-        cli_catch_signals();
-        int status = commands[i].run(argc - 1, argv + 1);
-        if (fflush(stdout) != 0 || ferror(stdout)) {
-            if (status == EXIT_DONE) fprintf(stderr, "gvc: cannot write to standard output\n");
-            if (status == EXIT_DONE) status = EXIT_DATA;
-        }
-        return status;
+        if (strcmp(argv[1], commands[i].name) == 0) return commands[i].run(argc - 1, argv + 1);
     }
     fprintf(stderr, "gvc: there is no command '%s'\n\n", argv[1]);
     print_usage(stderr);
     return EXIT_USAGE;
+}
+
+int main(int argc, char **argv) {
+    cli_catch_signals();
+    int status = run(argc, argv);
+    bool written = fflush(stdout) == 0 && !ferror(stdout);
+    if (written || status != EXIT_DONE) return status;
+    fprintf(stderr, "gvc: cannot write to standard output\n");
+    return EXIT_DATA;
 }

@@ -39,44 +39,64 @@ static void union_of_bounds(const gvc_mesh *const *mesh, size_t count, double lo
     }
 }
 
-/* Centres the camera on, and zooms to, what its axes make of the vertices. */
-static void fit_axes(render_camera *camera, const gvc_mesh *const *mesh, size_t count,
-                     double shape) {
-    vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
-    for (size_t i = 0; i < count; i++) {
-        for (size_t v = 0; v < mesh[i]->vertex_count; v++) {
-            vec3 p = frame3_coordinates(&camera->axes, vec3_load(&mesh[i]->position[3 * v]));
-            low = vec3_make(fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z));
-            high = vec3_make(fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z));
-        }
-    }
-    camera->centre = frame3_apply(&camera->axes, vec3_scale(vec3_add(low, high), 0.5));
-    vec3 half = vec3_scale(vec3_sub(high, low), 0.5);
-    camera->half_height = fmax(half.y, half.x / shape);
-    if (!(camera->half_height > 0)) camera->half_height = half.z > 0 ? half.z : 1;
-    camera->distance = 8 * fmax(camera->half_height, half.z);
-    /* What is nearer than the centre looks larger. */
-    camera->half_height *= MARGIN * camera->distance / (camera->distance - half.z);
-}
+/* The box around the vertices in the view's axes: its centre and half its size. */
+typedef struct view_box {
+    frame3 axes;
+    vec3 centre, half;
+} view_box;
 
-gvc_result render_camera_fit(const gvc_mesh *const *mesh, size_t count, const render_view *view,
-                             size_t width, size_t height, render_camera *camera, gvc_error *error) {
-    double low[3], high[3];
-    union_of_bounds(mesh, count, low, high);
-    if (!(low[0] <= high[0]) || !width || !height || !(view->zoom > 0)) {
+static gvc_result find_box(const gvc_mesh *const *mesh, size_t count, const render_view *view,
+                           view_box *box, gvc_error *error) {
+    double least[3], most[3];
+    union_of_bounds(mesh, count, least, most);
+    if (!(least[0] <= most[0])) {
         return gvc_fail(error, GVC_ERROR_ARGUMENT, "there is nothing to show");
     }
     unsigned up = (unsigned)view->up;
     if (up > 2) {
         up = 0;
         for (unsigned a = 1; a < 3; a++) {
-            if (high[a] - low[a] > high[up] - low[up]) up = a;
+            if (most[a] - least[a] > most[up] - least[up]) up = a;
         }
     }
-    frame3 axes = object_axes(up);
-    axes = frame3_turn_y(axes, -view->yaw * RADIANS);
-    camera->axes = frame3_turn_x(axes, -view->pitch * RADIANS);
-    fit_axes(camera, mesh, count, (double)width / (double)height);
+    frame3 axes = frame3_turn_y(object_axes(up), -view->yaw * RADIANS);
+    box->axes = axes = frame3_turn_x(axes, -view->pitch * RADIANS);
+    vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
+    for (size_t i = 0; i < count; i++) {
+        for (size_t v = 0; v < mesh[i]->vertex_count; v++) {
+            vec3 p = frame3_coordinates(&axes, vec3_load(&mesh[i]->position[3 * v]));
+            low = vec3_make(fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z));
+            high = vec3_make(fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z));
+        }
+    }
+    box->centre = frame3_apply(&axes, vec3_scale(vec3_add(low, high), 0.5));
+    box->half = vec3_scale(vec3_sub(high, low), 0.5);
+    return GVC_OK;
+}
+
+gvc_result render_view_extent(const gvc_mesh *const *mesh, size_t count, const render_view *view,
+                              double half[2], gvc_error *error) {
+    view_box box;
+    GVC_TRY(find_box(mesh, count, view, &box, error));
+    half[0] = box.half.x;
+    half[1] = box.half.y;
+    return GVC_OK;
+}
+
+gvc_result render_camera_fit(const gvc_mesh *const *mesh, size_t count, const render_view *view,
+                             size_t width, size_t height, render_camera *camera, gvc_error *error) {
+    view_box box;
+    if (!width || !height || !(view->zoom > 0)) {
+        return gvc_fail(error, GVC_ERROR_ARGUMENT, "there is nothing to show");
+    }
+    GVC_TRY(find_box(mesh, count, view, &box, error));
+    camera->axes = box.axes;
+    camera->centre = box.centre;
+    camera->half_height = fmax(box.half.y, box.half.x * (double)height / (double)width);
+    if (!(camera->half_height > 0)) camera->half_height = box.half.z > 0 ? box.half.z : 1;
+    camera->distance = 8 * fmax(camera->half_height, box.half.z);
+    /* What is nearer than the centre looks larger. */
+    camera->half_height *= MARGIN * camera->distance / (camera->distance - box.half.z);
     camera->half_height /= view->zoom;
     return GVC_OK;
 }

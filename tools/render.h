@@ -42,6 +42,11 @@ void render_view_init(render_view *view);
 gvc_result render_camera_fit(const gvc_mesh *const *mesh, size_t count, const render_view *view,
                              size_t width, size_t height, render_camera *camera, gvc_error *error);
 
+/** Half the width and half the height of what the view shows of the meshes, in their unit, without
+ * perspective. GVC_ERROR_ARGUMENT if there is nothing to show. */
+gvc_result render_view_extent(const gvc_mesh *const *mesh, size_t count, const render_view *view,
+                              double half[2], gvc_error *error);
+
 /** The picture being drawn. */
 typedef struct render_canvas render_canvas;
 

@@ -22,7 +22,7 @@ render_color render_edge_color(size_t edge) {
     return palette[edge % (sizeof palette / sizeof *palette)];
 }
 
-static render_color node_color(gvc_node_kind kind) {
+render_color render_node_color(gvc_node_kind kind) {
     switch (kind) {
     case GVC_NODE_ROOT:
         return (render_color){30, 70, 220};
@@ -50,7 +50,7 @@ gvc_result render_cut_graph(render_canvas *canvas, const gvc_halfedges *mesh,
     for (size_t n = 0; n < graph->node_count; n++) {
         const gvc_cut_node *node = &graph->node[n];
         double radius = node->kind == GVC_NODE_JUNCTION ? 0.75 * DOT_RADIUS : DOT_RADIUS;
-        render_canvas_dot(canvas, &mesh->position[3 * (size_t)node->vertex], node_color(node->kind),
+        render_canvas_dot(canvas, &mesh->position[3 * (size_t)node->vertex], render_node_color(node->kind),
                           radius);
     }
     return GVC_OK;

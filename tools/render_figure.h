@@ -10,6 +10,9 @@
 /** Colour that stands for cut edge number `edge` in every picture. */
 render_color render_edge_color(size_t edge);
 
+/** Colour of nodes of a kind: tips red, the root blue, junctions dark. */
+render_color render_node_color(gvc_node_kind kind);
+
 /** Draws the cut graph on the surface it belongs to: every edge in its colour, tips red, the root
  * blue, junctions dark. */
 gvc_result render_cut_graph(render_canvas *canvas, const gvc_halfedges *mesh,

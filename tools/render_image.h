@@ -5,6 +5,8 @@
 
 #include "gvc/gvc.h"
 
+#include <stdio.h>
+
 typedef struct render_color {
     uint8_t r, g, b;
 } render_color;
@@ -42,5 +44,8 @@ size_t render_text_width(const char *text, size_t scale);
 /** Writes a PNG file under a temporary name beside `path` and renames it when whole; an existing
  * file is replaced. "-": standard output. */
 gvc_result render_image_write(const render_image *image, const char *path, gvc_error *error);
+/** Writes the same to an open file, which is flushed; `path` is used in messages only. */
+gvc_result render_image_write_stream(const render_image *image, FILE *file, const char *path,
+                                     gvc_error *error);
 
 #endif

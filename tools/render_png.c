@@ -41,8 +41,8 @@ static bool write_rows(png_structp png, png_infop info, const render_image *imag
 
 _Static_assert(sizeof(render_color) == 3, "pixels are rows of libpng as they are");
 
-static gvc_result write_stream(const render_image *image, FILE *file, const char *path,
-                               gvc_error *error) {
+gvc_result render_image_write_stream(const render_image *image, FILE *file, const char *path,
+                                     gvc_error *error) {
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, on_error, on_warning);
     png_infop info = png ? png_create_info_struct(png) : NULL;
     if (!info) {
@@ -72,7 +72,7 @@ static gvc_result write_beside(const render_image *image, const char *path, char
         }
         return result;
     }
-    gvc_result result = write_stream(image, file, path, error);
+    gvc_result result = render_image_write_stream(image, file, path, error);
     if (result == GVC_OK) fchmod(descriptor, 0644);
     if (fclose(file) != 0 && result == GVC_OK) {
         result = gvc_fail(error, GVC_ERROR_IO, "cannot write %s: %s", path, strerror(errno));
@@ -85,7 +85,7 @@ static gvc_result write_beside(const render_image *image, const char *path, char
 }
 
 gvc_result render_image_write(const render_image *image, const char *path, gvc_error *error) {
-    if (strcmp(path, "-") == 0) return write_stream(image, stdout, "standard output", error);
+    if (strcmp(path, "-") == 0) return render_image_write_stream(image, stdout, "standard output", error);
     static const char suffix[] = ".XXXXXX";
     size_t length = strlen(path);
     char *temporary = gvc_alloc(length + sizeof suffix, 1);

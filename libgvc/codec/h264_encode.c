@@ -92,18 +92,42 @@ static gvc_result check_arguments(const gvc_h264_options *options, size_t count,
     return GVC_OK;
 }
 
-/* Rate factor and settings as x264 reads them. The number is put together from integers, so that it
- * has a decimal point in every locale. */
-static void format_settings(char *text, size_t size, const gvc_h264_options *options) {
-    double crf = options->crf < LEAST_RATE_FACTOR ? LEAST_RATE_FACTOR : options->crf;
-    long scaled = lround(crf * 1000);
-    snprintf(text, size, "%s%s%s:crf=%s%ld.%03ld", COMMON_SETTINGS,
-             options->effort ? FINAL_SETTINGS : TRIAL_SETTINGS,
-             /* -12 asks for the finest quantiser in every picture. */
-             options->crf < LEAST_RATE_FACTOR
-                 ? ":qpmax=0:trellis=0:deadzone-inter=0:deadzone-intra=0"
-                 : "",
-             scaled < 0 ? "-" : "", labs(scaled) / 1000, labs(scaled) % 1000);
+static void append_text(gvc_buffer *text, const char *more) {
+    gvc_write_bytes(text, more, strlen(more));
+}
+
+/* x264 rounds quantisers to whole numbers, and a whole step is a tenth of the bytes. So a rate
+ * factor between two whole ones is that share of pictures coded a step finer, scattered by the
+ * golden ratio (`zones`: pictures first,last with their bits times 2^(1/6)). */
+static void append_zones(gvc_buffer *text, double share, size_t count) {
+    const char *separator = ":zones=";
+    for (size_t i = 0; i < count; i++) {
+        double place = (double)(i + 1) * 0.6180339887498949;
+        if (place - floor(place) >= share) continue;
+        char zone[64];
+        snprintf(zone, sizeof zone, "%s%zu,%zu,b=1.122462", separator, i, i);
+        append_text(text, zone);
+        separator = "/";
+    }
+}
+
+/* Settings as x264 reads them; NUL-terminated. */
+static void format_settings(gvc_buffer *text, const gvc_h264_options *options, size_t count) {
+    char number[32];
+    append_text(text, COMMON_SETTINGS);
+    append_text(text, options->effort ? FINAL_SETTINGS : TRIAL_SETTINGS);
+    if (options->crf < LEAST_RATE_FACTOR) {
+        /* -12 asks for the finest quantiser in every picture */
+        snprintf(number, sizeof number, ":crf=%d", (int)LEAST_RATE_FACTOR);
+        append_text(text, number);
+        append_text(text, ":qpmax=0:trellis=0:deadzone-inter=0:deadzone-intra=0");
+    } else {
+        double coarser = ceil(options->crf);
+        snprintf(number, sizeof number, ":crf=%d", (int)coarser);
+        append_text(text, number);
+        append_zones(text, coarser - options->crf, count);
+    }
+    gvc_write_u8(text, '\0');
 }
 
 /* x264 reads numbers with atof, which follows the locale; the calling thread's is changed meanwhile
@@ -118,7 +142,8 @@ static int open_in_c_locale(AVCodecContext *context, const AVCodec *codec) {
     return status;
 }
 
-static gvc_result open_encoder(encoder *e, const gvc_h264_options *options, gvc_error *error) {
+static gvc_result open_encoder(encoder *e, const gvc_h264_options *options, size_t count,
+                               gvc_error *error) {
     const AVCodec *codec = avcodec_find_encoder_by_name("libx264");
     if (!codec) {
         return gvc_fail(error, GVC_ERROR_UNSUPPORTED, "libavcodec was built without libx264");
@@ -134,10 +159,14 @@ static gvc_result open_encoder(encoder *e, const gvc_h264_options *options, gvc_
     c->time_base = av_inv_q(c->framerate);
     c->thread_count = 1;
     c->flags |= AV_CODEC_FLAG_GLOBAL_HEADER | AV_CODEC_FLAG_CLOSED_GOP;
-    char settings[1024];
-    format_settings(settings, sizeof settings, options);
-    int status = av_opt_set(c->priv_data, "profile", "high10", 0);
-    if (status >= 0) status = av_opt_set(c->priv_data, "x264-params", settings, 0);
+    gvc_buffer settings = {0};
+    format_settings(&settings, options, count);
+    int status =
+        settings.failed ? AVERROR(ENOMEM) : av_opt_set(c->priv_data, "profile", "high10", 0);
+    if (status >= 0) {
+        status = av_opt_set(c->priv_data, "x264-params", (const char *)settings.data, 0);
+    }
+    gvc_buffer_free(&settings);
     if (status >= 0) status = open_in_c_locale(c, codec);
     return status < 0 ? fail_av(error, status, "libx264 does not open") : GVC_OK;
 }
@@ -297,7 +326,7 @@ gvc_result gvc_h264_encode(const gvc_h264_options *options, const uint16_t *cons
     GVC_TRY(check_arguments(options, count, error));
     encoder e = {0};
     gvc_result result;
-    GVC_CHECK(open_encoder(&e, options, error));
+    GVC_CHECK(open_encoder(&e, options, count, error));
     GVC_CHECK(make_frame(&e, error));
     GVC_CHECK(make_config(e.context, group, error));
     GVC_CHECK(encode_pictures(&e, luma, count, group, error));

@@ -14,9 +14,9 @@
 #define MEASURE_SAMPLES 10000 /* surface samples for each, and each direction */
 #define CRF_LEAST -12.0
 #define CRF_MOST 45.0
-#define CRF_STEP 3.0       /* first step away from the guess */
-#define CRF_TOLERANCE 0.25 /* x264 rounds to whole quantisers: nothing lies between closer ones */
-#define LOAD_TOLERANCE 0.015
+#define CRF_STEP 3.0      /* first step away from the guess */
+#define CRF_TOLERANCE 0.1 /* about 1 % of the bytes */
+#define LOAD_TOLERANCE 0.01
 #define CONFIRMATIONS 4
 
 /* ------------------------------------------------------------------------------------- measure */
@@ -162,7 +162,7 @@ static gvc_result find_crf(search *s, double guess, double step, double *found, 
 /* The search looks at some frames only; here all are measured, and the search is set right by what
  * it was off. */
 static gvc_result find_and_confirm(search *s, double *crf, gvc_error *error) {
-    double step = CRF_STEP;
+    double step = CRF_STEP, before = NAN;
     for (int i = 0; i < CONFIRMATIONS; i++) {
         GVC_TRY(find_crf(s, *crf, step, crf, error));
         if (probe_count(s) == s->group->count) return GVC_OK;
@@ -171,7 +171,8 @@ static gvc_result find_and_confirm(search *s, double *crf, gvc_error *error) {
         bool holds = s->load <= 1;
         bool at_end = *crf <= CRF_LEAST || *crf >= CRF_MOST;
         if (holds && (at_end || s->load > 1 - 2 * LOAD_TOLERANCE)) return GVC_OK;
-        if (at_end && !holds) return GVC_OK;
+        if ((at_end && !holds) || (holds && *crf == before)) return GVC_OK;
+        before = *crf;
         s->limit = seen / s->load;
         step = 0.5;
     }

@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: MIT */
+/** @file render_track.c  The encoder's flow (libgvc/encoder.c) as far as the cut graphs. */
+#include "render_track.h"
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "encode/segment.h"
+
+#include <stdlib.h>
+
+#define BATCH 8 /* frames analysed in parallel */
+
+typedef struct follower {
+    const gvc_source *source;
+    gvc_encode_options options;
+    const render_track_hooks *hooks;
+    const uint64_t *frame; /* asked for */
+    size_t count, shown;
+
+    gvc_scan_frame *facts;
+    gvc_tracker *tracker;
+    gvc_segment segment;
+    bool in_segment;
+
+    gvc_frame_work work[BATCH];
+    uint64_t batch_first;
+} follower;
+
+static gvc_result begin_segment(follower *f, gvc_frame_work *work, gvc_error *error) {
+    if (f->in_segment) {
+        /* The halfedges may have been split when this frame was tried. */
+        gvc_halfedges_free(&work->halfedges);
+        GVC_TRY(gvc_halfedges_build(work->mesh, 0, &work->halfedges, error));
+    }
+    uint64_t number = f->in_segment ? f->segment.number + 1 : 0;
+    gvc_segment_free(&f->segment);
+    GVC_TRY(gvc_segment_begin(f->source, &f->options, f->facts, number, work->number, &f->segment,
+                              error));
+    f->in_segment = true;
+    GVC_TRY(gvc_tracker_start(f->tracker, &work->features, f->segment.extremum_count,
+                              &work->halfedges, &work->graph, error));
+    f->hooks->segment(f->hooks->user, work->number, &work->graph);
+    return GVC_OK;
+}
+
+static gvc_result follow(follower *f, gvc_frame_work *work, gvc_error *error) {
+    bool continues = false;
+    if (f->in_segment && work->number < f->segment.end_frame) {
+        GVC_TRY(gvc_tracker_next(f->tracker, &work->features, &work->halfedges, &work->graph,
+                                 &continues, error));
+    }
+    if (!continues) GVC_TRY(begin_segment(f, work, error));
+    if (f->shown == f->count || work->number != f->frame[f->shown]) return GVC_OK;
+    render_tracked tracked = {.index = f->shown++,
+                              .frame = work->number,
+                              .mesh = work->mesh,
+                              .halfedges = &work->halfedges,
+                              .graph = &work->graph};
+    return f->hooks->picture(f->hooks->user, &tracked, error);
+}
+
+static gvc_result analyse_one(void *user, size_t index, gvc_error *error) {
+    follower *f = user;
+    f->work[index] = (gvc_frame_work){.number = f->batch_first + index};
+    return gvc_frame_analyse(&f->work[index], f->source, f->options.weld, error);
+}
+
+static gvc_result follow_batch(follower *f, size_t count, gvc_error *error) {
+    for (size_t i = 0; i < BATCH; i++) f->work[i] = (gvc_frame_work){0};
+    gvc_result result = gvc_parallel_for(f->options.threads, count, analyse_one, f, error);
+    for (size_t i = 0; i < count; i++) {
+        if (result == GVC_OK) {
+            result = follow(f, &f->work[i], error);
+            result = gvc_at_frame(error, result, (int64_t)(f->batch_first + i));
+        }
+        gvc_frame_free(&f->work[i]);
+    }
+    return result;
+}
+
+static gvc_result follow_all(follower *f, gvc_error *error) {
+    uint64_t first = f->frame[0], end = f->frame[f->count - 1] + 1;
+    GVC_TRY(gvc_scan(f->source, &f->options, f->facts, error));
+    while (first > 0 && f->facts[first - 1].genus == f->facts[first].genus) first--;
+    for (f->batch_first = first; f->batch_first < end; f->batch_first += BATCH) {
+        size_t count = end - f->batch_first < BATCH ? (size_t)(end - f->batch_first) : BATCH;
+        if (!f->hooks->progress(f->hooks->user, GVC_STAGE_ENCODE, f->batch_first - first,
+                                end - first)) {
+            return gvc_fail(error, GVC_ERROR_CANCELLED, "interrupted");
+        }
+        GVC_TRY(follow_batch(f, count, error));
+    }
+    return GVC_OK;
+}
+
+gvc_result render_track(const gvc_source *source, bool weld, unsigned threads,
+                        const uint64_t *frame, size_t count, const render_track_hooks *hooks,
+                        gvc_error *error) {
+    if (count == 0) return GVC_OK;
+    follower *f = gvc_alloc(1, sizeof *f);
+    if (!f) return gvc_fail_memory(error);
+    *f = (follower){.source = source, .hooks = hooks, .frame = frame, .count = count};
+    gvc_encode_options_init(&f->options);
+    f->options.weld = weld;
+    f->options.threads = threads;
+    f->options.progress = hooks->progress;
+    f->options.user = hooks->user;
+    const gvc_tracker_options tracking = {
+        .prior_weight = f->options.prior_weight, .shortest_weight = 0.3, .lambda = 0.5};
+    f->facts = gvc_alloc((size_t)source->frame_count, sizeof *f->facts);
+    gvc_result result = f->facts ? GVC_OK : gvc_fail_memory(error);
+    if (result == GVC_OK) result = gvc_tracker_create(&tracking, &f->tracker, error);
+    if (result == GVC_OK) result = follow_all(f, error);
+    gvc_segment_free(&f->segment);
+    gvc_tracker_destroy(&f->tracker);
+    free(f->facts);
+    free(f);
+    return result;
+}
