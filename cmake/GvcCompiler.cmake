@@ -37,11 +37,16 @@ function(gvc_layer name)
   set_property(GLOBAL APPEND PROPERTY GVC_LAYERS ${name})
 endfunction()
 
+# Leaks of other libraries that LeakSanitizer should not report.
+set(GVC_TEST_ENVIRONMENT
+  "LSAN_OPTIONS=suppressions=${CMAKE_CURRENT_LIST_DIR}/lsan.supp:print_suppressions=0")
+
 # gvc_test(NAME LIBRARIES ...): builds test_NAME.c of this folder and registers it.
 function(gvc_test name)
   cmake_parse_arguments(T "" "" "LIBRARIES" ${ARGN})
   add_executable(test_${name} test_${name}.c)
   target_link_libraries(test_${name} PRIVATE ${T_LIBRARIES} PkgConfig::CMOCKA m)
   add_test(NAME ${name} COMMAND test_${name})
-  set_tests_properties(${name} PROPERTIES TIMEOUT 600)
+  set_tests_properties(${name} PROPERTIES TIMEOUT 600
+    ENVIRONMENT "${GVC_TEST_ENVIRONMENT}")
 endfunction()

@@ -19,10 +19,7 @@
 #define BATCH 16
 #define BLOCK 16 /* pictures are padded to whole macroblocks, so that no block spans two planes */
 #define FIRST_CRF 8.0
-#define LARGEST_CHOSEN 512
-/* Share of the error asked for that sampling alone may take when the image size is chosen; the rest
- * is the quantiser's. */
-#define SAMPLING_SHARE 0.7
+#define SIZE_FRAMES 3
 #define SIZE_SAMPLES 10000
 
 typedef struct encoder {
@@ -78,8 +75,6 @@ static gvc_result report_progress(const encoder *e, uint64_t done, gvc_error *er
 }
 
 /* -------------------------------------------------------------------------------------- output */
-
-static uint32_t round_up(uint32_t value, uint32_t unit) { return (value + unit - 1) / unit * unit; }
 
 static void describe(const encoder *e, gvc_config *config) {
     const gvc_encode_options *o = &e->options;
@@ -145,26 +140,60 @@ static gvc_result flush_group(encoder *e, gvc_error *error) {
 
 /* ------------------------------------------------------------------------------------ segments */
 
-/* Smallest image whose sampling error leaves room for the quantiser. Sizes are whole macroblocks: a
- * larger image up to the next multiple costs nothing. */
-static gvc_result choose_size(encoder *e, const gvc_frame_work *work, gvc_error *error) {
-    static const uint32_t candidate[] = {48,  64,  80,  96,  112, 128, 144,           160,
-                                         192, 224, 256, 320, 384, 448, LARGEST_CHOSEN};
-    double asked = gvc_rms_asked(&e->options, work->diagonal);
-    size_t low = 0, high = sizeof candidate / sizeof *candidate - 1; /* errors fall with the size */
-    while (low < high) {
-        size_t middle = (low + high) / 2;
-        double rms;
-        gvc_result result = gvc_segment_sampling_rms(&e->segment, work, candidate[middle],
-                                                     SIZE_SAMPLES, &rms, error);
-        if (result != GVC_OK && result != GVC_ERROR_MESH) return result;
-        if (result == GVC_OK && rms <= SAMPLING_SHARE * asked) {
-            high = middle;
-        } else {
-            low = middle + 1;
-        }
+typedef struct size_context {
+    const encoder *e;
+    const gvc_frame_work *frame[SIZE_FRAMES];
+    uint32_t size;
+    double square[SIZE_FRAMES]; /* of sampling error / error asked for */
+} size_context;
+
+static gvc_result try_size(void *user, size_t index, gvc_error *error) {
+    size_context *context = user;
+    const gvc_frame_work *work = context->frame[index];
+    double rms;
+    GVC_TRY(gvc_segment_sampling_rms(&context->e->segment, work, context->size, SIZE_SAMPLES, &rms,
+                                     error));
+    double share = rms / gvc_rms_asked(&context->e->options, work->diagonal);
+    context->square[index] = share * share;
+    return GVC_OK;
+}
+
+/* What an image size will cost, as a logarithm: bytes grow with the number of samples a side, and
+ * with what the quantiser has to make good for the sampling error. Exponents fitted to trial
+ * encodes (docs/adr/0007). */
+static gvc_result predict_cost(size_context *context, size_t frames, double *cost,
+                               gvc_error *error) {
+    double square = 0;
+    gvc_result result =
+        gvc_parallel_for(context->e->options.threads, frames, try_size, context, error);
+    if (result == GVC_ERROR_MESH) { /* too small for the cut */
+        *cost = INFINITY;
+        return GVC_OK;
     }
-    e->size = candidate[low];
+    for (size_t i = 0; i < frames; i++) square += context->square[i] / (double)frames;
+    *cost = square < 1 ? 0.8 * log(context->size) - 0.7 * log(1 - square) : INFINITY;
+    return result;
+}
+
+/* The cheapest image size for the error asked for, judged by frames of the first batch whose cut is
+ * known. Sizes are whole macroblocks: a larger image up to the next multiple costs nothing. */
+static gvc_result choose_size(encoder *e, size_t first, size_t end, gvc_error *error) {
+    static const uint32_t candidate[] = {48,  64,  80,  96,  112, 128, 144, 160,
+                                         192, 224, 256, 320, 384, 448, 512, 640};
+    size_context context = {.e = e};
+    size_t frames = end - first < SIZE_FRAMES ? end - first : SIZE_FRAMES;
+    for (size_t i = 0; i < frames; i++) {
+        context.frame[i] = &e->work[first + (end - 1 - first) * i / (frames > 1 ? frames - 1 : 1)];
+    }
+    double best = INFINITY;
+    for (size_t i = 0; i < sizeof candidate / sizeof *candidate; i++) {
+        double cost;
+        context.size = candidate[i];
+        GVC_TRY(predict_cost(&context, frames, &cost, error));
+        if (cost > best) break; /* one minimum: sampling errors fall steeply first */
+        if (cost < best || isinf(best)) e->size = candidate[i];
+        best = cost;
+    }
     return GVC_OK;
 }
 
@@ -183,16 +212,19 @@ static gvc_result begin_segment(encoder *e, gvc_frame_work *work, gvc_error *err
     GVC_TRY(gvc_tracker_start(e->tracker, &work->features, e->segment.extremum_count,
                               &work->halfedges, &work->graph, error));
     GVC_TRY(gvc_segment_layout(&e->segment, work, e->size, e->options.threads, error));
-    if (e->size == 0) {
-        e->size = e->options.image_size;
-        if (e->size == 0) GVC_TRY(choose_size(e, work, error));
-        gvc_picture_layout layout = {round_up(e->size, BLOCK), round_up(e->size, BLOCK)};
-        GVC_TRY(gvc_group_create(e->options.gop, layout, &e->group, error));
-        GVC_TRY(gvc_segment_resize(&e->segment, work, e->size, error));
-    }
     e->report.segment_count++;
     e->in_segment = true;
     return GVC_OK;
+}
+
+/* Settles the image size with the first frames cut, and with it what depends on it. */
+static gvc_result settle_size(encoder *e, size_t first, size_t end, gvc_error *error) {
+    e->size = e->options.image_size;
+    if (e->size == 0) GVC_TRY(choose_size(e, first, end, error));
+    uint32_t padded = (e->size + BLOCK - 1) / BLOCK * BLOCK;
+    gvc_picture_layout layout = {padded, padded};
+    GVC_TRY(gvc_group_create(e->options.gop, layout, &e->group, error));
+    return gvc_segment_resize(&e->segment, &e->work[first], e->size, error);
 }
 
 /* Finds the cut of the next frame, in order. *continues is false, and nothing is kept, if a new
@@ -272,7 +304,7 @@ static gvc_result encode_run(encoder *e, size_t first, size_t *end, gvc_error *e
         GVC_TRY(flush_group(e, error));
         GVC_TRY(begin_segment(e, &e->work[first], error));
     }
-    size_t room = e->group.capacity - e->group.count;
+    size_t room = e->options.gop - e->group.count;
     size_t i = first + 1;
     while (i < e->batch_count && i - first < room) {
         GVC_TRY(follow(e, &e->work[i], &continues, error));
@@ -281,6 +313,7 @@ static gvc_result encode_run(encoder *e, size_t first, size_t *end, gvc_error *e
     }
     bool broken = i < e->batch_count && i - first < room;
     *end = i;
+    if (e->size == 0) GVC_TRY(settle_size(e, first, i, error));
     GVC_TRY(add_images(e, first, i, error));
     if (broken) {
         /* frame i was tried already: it starts a segment */
@@ -324,9 +357,6 @@ gvc_result gvc_encode(const gvc_source *source, const gvc_sink *sink,
     *e = (encoder){.source = source, .sink = sink, .options = *options, .crf = FIRST_CRF};
     gvc_tracker_options tracking = {
         .prior_weight = options->prior_weight, .shortest_weight = 0.1, .lambda = 0.5};
-    if (isnan(e->options.curvature_weight)) {
-        e->options.curvature_weight = options->max_rms > 7e-4 ? 0 : 0.5;
-    }
     e->facts = gvc_alloc((size_t)source->frame_count, sizeof *e->facts);
     gvc_result result = e->facts ? GVC_OK : gvc_fail_memory(error);
     if (result == GVC_OK) result = gvc_tracker_create(&tracking, &e->tracker, error);

@@ -14,7 +14,7 @@ void gvc_encode_options_init(gvc_encode_options *options) {
                                     .weld = true,
                                     .persistence = 0.2,
                                     .prior_weight = 1,
-                                    .curvature_weight = NAN};
+                                    .curvature_weight = 0.25};
 }
 
 void gvc_read_options_init(gvc_read_options *options) {

@@ -165,7 +165,7 @@ static gvc_result append_folder(frame_list *list, const char *folder, name_filte
         free(path);
     }
     closedir(directory);
-    if (result == GVC_OK) {
+    if (result == GVC_OK && list->count > first) {
         qsort(list->path + first, list->count - first, sizeof *list->path, compare_names);
     }
     return result;

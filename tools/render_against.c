@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/** @file render_against.c  gvc render capture.gvc --against FRAMES: captured and decoded frames side
- * by side. */
+/** @file render_against.c  gvc render capture.gvc --against FRAMES: captured and decoded frames
+ * side by side. */
 #include "render_capture.h"
 
 #include "base/memory.h"
@@ -93,12 +93,11 @@ static gvc_result describe(const versus *v, size_t i, panel_kind kind, uint32_t 
         break;
     case PANEL_DECODED:
         GVC_TRY(gvc_reader_frame_info(v->capture.reader, v->job->frame[i], &info, error));
-        snprintf(title, 64, "decoded");
-        snprintf(facts, 64, "from %s bytes%s", render_count(number, info.byte_count),
-                 info.keyframe ? " (keyframe)" : "");
+        snprintf(title, 64, info.keyframe ? "decoded keyframe" : "decoded");
+        snprintf(facts, 64, "from %s bytes", render_count(number, info.byte_count));
         break;
     case PANEL_DISTANCE:
-        snprintf(title, 64, "distance");
+        snprintf(title, 64, "distance to the capture");
         snprintf(facts, 64, "RMS %.3g%% of diagonal", 100 * v->rms[i]);
         break;
     case PANEL_IMAGE:
@@ -143,9 +142,10 @@ static gvc_result add_legend(const versus *v, size_t width, render_parts *page, 
     render_image *image;
     char most[64];
     const render_color white = {255, 255, 255};
-    snprintf(most, sizeof most, "%.3g%% of the bounding box's diagonal", 100 * v->full_scale);
-    GVC_TRY(render_image_create(width, 50, white, &image, error));
-    render_heat_legend(image, "distance to the capture: 0", most);
+    snprintf(most, sizeof most, " %.3g%% of the bounding box's diagonal, or more",
+             100 * v->full_scale);
+    GVC_TRY(render_image_create(width, 48, white, &image, error));
+    render_heat_legend(image, "distance: 0 ", most);
     return render_parts_add(page, image, error);
 }
 
@@ -162,6 +162,7 @@ static gvc_result draw(versus *v, render_image **image, gvc_error *error) {
         }
     }
     if (result == GVC_OK) result = add_legend(v, page.image[1]->width, &page, error);
+    if (result == GVC_OK) result = render_capture_keys(page.image[1]->width, &page, error);
     if (result == GVC_OK) result = render_parts_column(&page, RENDER_GAP, image, error);
     if (result == GVC_OK) result = render_margin(image, RENDER_GAP, error);
     render_parts_free(&page);

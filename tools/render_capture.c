@@ -7,6 +7,7 @@
 #include "file.h"
 #include "render_figure.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -43,6 +44,16 @@ gvc_result render_capture_headline(const render_capture *capture, const char *pa
              render_count(frames, info->frame_count), render_count(bytes, info->byte_count),
              render_count(each, info->byte_count / info->frame_count));
     return render_parts_text(page, 2, text, error);
+}
+
+gvc_result render_capture_keys(size_t width, render_parts *page, gvc_error *error) {
+    const render_key key[] = {
+        {render_node_color(GVC_NODE_ROOT), false, "root"},
+        {render_node_color(GVC_NODE_EXTREMUM), false, "tip"},
+        {render_node_color(GVC_NODE_JUNCTION), false, "junction"},
+        {render_edge_color(0), true, "cut edge, on both sides"},
+    };
+    return render_parts_keys(page, key, sizeof key / sizeof *key, width, error);
 }
 
 /* -------------------------------------------------------------------------------------- colours
@@ -85,57 +96,58 @@ static gvc_result stretched_image(const render_capture *capture, const uint16_t 
 /* ------------------------------------------------------------------------------------ the border
  */
 
-/* The square that the samples' centres of a border span, in pixels of the panel. */
-typedef struct border_square {
-    double low, step; /* pixel of sample 0, and pixels from sample to sample */
-    uint32_t size;
-} border_square;
+/* Pixel of sample number `index` along a border of `size` samples: its centre, but the outer edge
+ * of the rim for the first and the last. */
+static double border_place(const render_image *image, uint32_t size, uint32_t index) {
+    if (index == 0) return 0;
+    if (index == size - 1) return (double)image->width;
+    return RIM + ((double)index + 0.5) * (double)(image->width - 2 * RIM) / size;
+}
 
 /* Fills the rim beside `steps` border steps from `position` on. */
-static void draw_side(render_image *image, const border_square *square, uint32_t position,
-                      uint32_t steps, render_color color) {
+static void draw_side(render_image *image, uint32_t size, uint32_t position, uint32_t steps,
+                      render_color color) {
     for (uint32_t i = 0; i < steps; i++) {
-        uint32_t x0, y0, x1, y1;
-        gvc_border_pixel(square->size, position + i, &x0, &y0);
-        gvc_border_pixel(square->size, position + i + 1, &x1, &y1);
-        uint32_t left = x0 < x1 ? x0 : x1, top = y0 < y1 ? y0 : y1;
-        size_t from_x = (size_t)(square->low + square->step * left);
-        size_t from_y = (size_t)(square->low + square->step * top);
-        size_t length = (size_t)square->step + 2;
-        if (y0 == y1) {
-            render_image_box(image, from_x, y0 == 0 ? 0 : image->height - RIM, length, RIM, color);
+        uint32_t x[2], y[2];
+        gvc_border_pixel(size, position + i, &x[0], &y[0]);
+        gvc_border_pixel(size, position + i + 1, &x[1], &y[1]);
+        bool level = y[0] == y[1];
+        uint32_t a = level ? x[0] : y[0], b = level ? x[1] : y[1];
+        size_t from = (size_t)border_place(image, size, a < b ? a : b);
+        size_t length = (size_t)border_place(image, size, a < b ? b : a) - from;
+        size_t far = image->width - RIM;
+        if (level) {
+            render_image_box(image, from, y[0] == 0 ? 0 : far, length, RIM, color);
         } else {
-            render_image_box(image, x0 == 0 ? 0 : image->width - RIM, from_y, RIM, length, color);
+            render_image_box(image, x[0] == 0 ? 0 : far, from, RIM, length, color);
         }
     }
 }
 
-static void draw_node(render_image *image, const border_square *square, uint32_t position,
-                      render_color color) {
+static void draw_node(render_image *image, uint32_t size, uint32_t position, render_color color) {
+    const double middle = RIM / 2.0;
     uint32_t x, y;
-    gvc_border_pixel(square->size, position, &x, &y);
-    uint32_t last = square->size - 1;
-    double middle = RIM / 2.0, end = (double)image->width - middle;
-    double px = x == 0 ? middle : x == last ? end : square->low + square->step * x;
-    double py = y == 0 ? middle : y == last ? end : square->low + square->step * y;
+    gvc_border_pixel(size, position, &x, &y);
+    double px = fmax(border_place(image, size, x), middle);
+    double py = fmax(border_place(image, size, y), middle);
+    px = fmin(px, (double)image->width - middle);
+    py = fmin(py, (double)image->width - middle);
     render_image_disc(image, px, py, DOT + 1, (render_color){255, 255, 255});
     render_image_disc(image, px, py, DOT, color);
 }
 
 static void draw_border(render_image *image, const gvc_chart_shape *chart) {
     const gvc_side_table *sides = &chart->sides;
-    double step = (double)(image->width - 2 * RIM) / sides->size;
-    border_square square = {.low = RIM + step / 2, .step = step, .size = sides->size};
     for (int nodes = 0; nodes < 2; nodes++) { /* on top of all sides */
         uint32_t position = sides->start;
         for (size_t i = 0; i < sides->side_count; i++) {
             gvc_side side = sides->side[i];
             uint32_t node = chart->edge[side.edge].node[side.reversed ? 1 : 0];
             if (nodes) {
-                draw_node(image, &square, position,
+                draw_node(image, sides->size, position,
                           render_node_color((gvc_node_kind)chart->node[node].kind));
             } else {
-                draw_side(image, &square, position, sides->steps[side.edge],
+                draw_side(image, sides->size, position, sides->steps[side.edge],
                           render_edge_color(side.edge));
             }
             position += sides->steps[side.edge];

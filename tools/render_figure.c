@@ -50,8 +50,8 @@ gvc_result render_cut_graph(render_canvas *canvas, const gvc_halfedges *mesh,
     for (size_t n = 0; n < graph->node_count; n++) {
         const gvc_cut_node *node = &graph->node[n];
         double radius = node->kind == GVC_NODE_JUNCTION ? 0.75 * DOT_RADIUS : DOT_RADIUS;
-        render_canvas_dot(canvas, &mesh->position[3 * (size_t)node->vertex], render_node_color(node->kind),
-                          radius);
+        render_canvas_dot(canvas, &mesh->position[3 * (size_t)node->vertex],
+                          render_node_color(node->kind), radius);
     }
     return GVC_OK;
 }

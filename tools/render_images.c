@@ -49,13 +49,13 @@ static gvc_result draw(const render_job *job, render_capture *capture, render_im
     render_parts page = {0};
     gvc_result result = render_capture_headline(capture, job->input[0], &page, error);
     if (result == GVC_OK) {
-        result = render_parts_text(&page, 2,
-                                   "geometry images: x, y, z as red, green, blue; "
-                                   "sides of one colour are one cut edge",
-                                   error);
+        result = render_parts_text(&page, 2, "geometry images: x, y, z as red, green, blue", error);
     }
     if (result == GVC_OK) result = render_capture_scale(capture, job, error);
     if (result == GVC_OK) result = add_images(job, capture, &page, error);
+    if (result == GVC_OK) {
+        result = render_capture_keys(page.image[page.count - 1]->width, &page, error);
+    }
     if (result == GVC_OK) result = render_parts_column(&page, RENDER_GAP, image, error);
     if (result == GVC_OK) result = render_margin(image, RENDER_GAP, error);
     render_parts_free(&page);

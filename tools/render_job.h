@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/** @file render_job.h  What `gvc render` was asked for, and what its three kinds of picture share. */
+/** @file render_job.h  What `gvc render` was asked for, and what its three kinds of picture share.
+ */
 #ifndef GVC_TOOLS_RENDER_JOB_H
 #define GVC_TOOLS_RENDER_JOB_H
 
@@ -29,7 +30,7 @@ int render_job_choose(render_job *job, uint64_t count, size_t usual);
 
 /** How surfaces are seen: every one in the middle of its panel, all at one scale. */
 typedef struct render_sight {
-    size_t width, height;                       /**< of a panel */
+    size_t width, height;                        /**< of a panel */
     render_camera camera[2][RENDER_MOST_FRAMES]; /**< front and back, one per frame of the job */
 } render_sight;
 

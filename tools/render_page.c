@@ -10,10 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LINE 26u       /* height of a line of text at scale 2 */
-#define SMALL 264u     /* panels narrower than this have small letters */
-#define KEY_WIDTH 30u  /* of a dot or a stroke */
-#define KEY_SPACE 22u  /* after a key */
+#define LINE 26u      /* height of a line of text at scale 2 */
+#define SMALL 284u    /* panels narrower than this have small letters */
+#define KEY_WIDTH 30u /* of a dot or a stroke */
+#define KEY_SPACE 22u /* after a key */
 
 static const render_color white = {255, 255, 255}, ink = {36, 38, 44}, pale = {112, 116, 126};
 
@@ -46,8 +46,8 @@ static gvc_result join(const render_parts *parts, bool column, size_t gap, rende
         size_t breadth = column ? width : height;
         if (breadth > across) across = breadth;
     }
-    GVC_TRY(render_image_create(column ? across : along, column ? along : across, white, image,
-                                error));
+    GVC_TRY(
+        render_image_create(column ? across : along, column ? along : across, white, image, error));
     for (size_t i = 0; i < parts->count; i++) {
         const render_image *part = parts->image[i];
         if (column) {

@@ -32,14 +32,13 @@ gvc_result render_caption(render_image **image, const char *title, const char *f
                           gvc_error *error);
 
 /** Appends a line of text. */
-gvc_result render_parts_text(render_parts *parts, size_t scale, const char *text,
-                             gvc_error *error);
+gvc_result render_parts_text(render_parts *parts, size_t scale, const char *text, gvc_error *error);
 
 /** What a coloured dot or stroke stands for. */
 typedef struct render_key {
     render_color color;
     bool stroke; /**< else a dot */
-    char text[24];
+    char text[40];
 } render_key;
 
 /** Appends a line of keys, in as many rows as `width` asks for. */

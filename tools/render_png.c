@@ -85,7 +85,8 @@ static gvc_result write_beside(const render_image *image, const char *path, char
 }
 
 gvc_result render_image_write(const render_image *image, const char *path, gvc_error *error) {
-    if (strcmp(path, "-") == 0) return render_image_write_stream(image, stdout, "standard output", error);
+    if (strcmp(path, "-") == 0)
+        return render_image_write_stream(image, stdout, "standard output", error);
     static const char suffix[] = ".XXXXXX";
     size_t length = strlen(path);
     char *temporary = gvc_alloc(length + sizeof suffix, 1);

@@ -11,8 +11,8 @@
 
 #include <stdlib.h>
 
-#define COLUMNS 6 /* frames side by side */
-#define MOST_KEYS 40
+#define COLUMNS 6     /* frames side by side */
+#define MOST_NAMED 12 /* edges with a colour of their own */
 
 typedef struct surfaces {
     render_job *job;
@@ -20,7 +20,8 @@ typedef struct surfaces {
     gvc_mesh *mesh[RENDER_MOST_FRAMES];
     render_sight sight;
     render_image *panel[2][RENDER_MOST_FRAMES]; /* front and back */
-    size_t tip_count, edge_count;               /* greatest of the graphs shown */
+    uint64_t segment[RENDER_MOST_FRAMES];
+    size_t tip_count, edge_count; /* greatest of the graphs shown */
     bool junctions;
     bool scanning;
     cli_progress progress;
@@ -57,6 +58,7 @@ static gvc_result on_picture(void *user, const render_tracked *tracked, gvc_erro
         tips += graph->node[n].kind == GVC_NODE_EXTREMUM;
         s->junctions = s->junctions || graph->node[n].kind == GVC_NODE_JUNCTION;
     }
+    s->segment[tracked->index] = tracked->segment;
     if (tips > s->tip_count) s->tip_count = tips;
     if (graph->edge_count > s->edge_count) s->edge_count = graph->edge_count;
     return draw(s, tracked->index, tracked->mesh, tracked, error);
@@ -103,7 +105,7 @@ static gvc_result draw_plain(surfaces *s, gvc_error *error) {
 /* ---------------------------------------------------------------------------------------- page */
 
 static gvc_result add_keys(const surfaces *s, size_t width, render_parts *page, gvc_error *error) {
-    render_key key[MOST_KEYS];
+    render_key key[3 + MOST_NAMED];
     size_t count = 0;
     key[count++] = (render_key){render_node_color(GVC_NODE_ROOT), false, "root"};
     if (s->tip_count > 0) {
@@ -112,31 +114,50 @@ static gvc_result add_keys(const surfaces *s, size_t width, render_parts *page, 
     if (s->junctions) {
         key[count++] = (render_key){render_node_color(GVC_NODE_JUNCTION), false, "junction"};
     }
-    for (size_t e = 0; e < s->edge_count && count < MOST_KEYS; e++) {
-        key[count] = (render_key){.color = render_edge_color(e), .stroke = true};
-        snprintf(key[count++].text, sizeof key->text, "edge %zu", e);
+    if (s->edge_count > MOST_NAMED) {
+        key[count] = (render_key){.color = render_edge_color(0), .stroke = true};
+        snprintf(key[count++].text, sizeof key->text, "%zu cut edges", s->edge_count);
+    } else {
+        for (size_t e = 0; e < s->edge_count; e++) {
+            key[count] = (render_key){.color = render_edge_color(e), .stroke = true};
+            snprintf(key[count++].text, sizeof key->text, "edge %zu", e);
+        }
     }
     return render_parts_keys(page, key, count, width, error);
 }
 
-/* Frames first ... end - 1: a row of fronts under their frame numbers, and a row of backs. */
+static gvc_result add_panel(surfaces *s, size_t side, size_t i, bool alone, render_parts *row,
+                            gvc_error *error) {
+    char title[48], segment[48];
+    snprintf(title, sizeof title, "frame %llu%s", (unsigned long long)s->job->frame[i],
+             alone && side ? ", from behind" : "");
+    snprintf(segment, sizeof segment, "segment %llu", (unsigned long long)s->segment[i]);
+    /* Only over several segments does it matter which one a frame belongs to. */
+    bool told = s->segment[0] != s->segment[s->job->frame_count - 1];
+    if (alone || side == 0) {
+        GVC_TRY(render_caption(&s->panel[side][i], title, told ? segment : NULL, error));
+    }
+    render_image *panel = s->panel[side][i];
+    s->panel[side][i] = NULL;
+    return render_parts_add(row, panel, error);
+}
+
+/* Frames first ... end - 1: a row of fronts under their frame numbers, and a row of backs; both in
+ * one row if there is one frame only. */
 static gvc_result add_rows(surfaces *s, size_t first, size_t end, render_parts *page,
                            gvc_error *error) {
     gvc_result result = GVC_OK;
+    render_parts row = {0};
+    bool alone = s->job->frame_count == 1;
     for (size_t side = 0; side < 2 && result == GVC_OK; side++) {
-        render_parts row = {0};
         for (size_t i = first; i < end && result == GVC_OK; i++) {
-            char title[48];
-            snprintf(title, sizeof title, "frame %llu", (unsigned long long)s->job->frame[i]);
-            if (side == 0) result = render_caption(&s->panel[side][i], title, NULL, error);
-            if (result == GVC_OK) {
-                result = render_parts_add(&row, s->panel[side][i], error);
-                s->panel[side][i] = NULL;
-            }
+            result = add_panel(s, side, i, alone, &row, error);
         }
-        if (result == GVC_OK) result = render_parts_move_row(&row, RENDER_GAP, page, error);
-        render_parts_free(&row);
+        if (result == GVC_OK && !(alone && side == 0)) {
+            result = render_parts_move_row(&row, RENDER_GAP, page, error);
+        }
     }
+    render_parts_free(&row);
     return result;
 }
 

@@ -53,6 +53,7 @@ static gvc_result follow(follower *f, gvc_frame_work *work, gvc_error *error) {
     if (f->shown == f->count || work->number != f->frame[f->shown]) return GVC_OK;
     render_tracked tracked = {.index = f->shown++,
                               .frame = work->number,
+                              .segment = f->segment.number,
                               .mesh = work->mesh,
                               .halfedges = &work->halfedges,
                               .graph = &work->graph};
@@ -106,7 +107,7 @@ gvc_result render_track(const gvc_source *source, bool weld, unsigned threads,
     f->options.progress = hooks->progress;
     f->options.user = hooks->user;
     const gvc_tracker_options tracking = {
-        .prior_weight = f->options.prior_weight, .shortest_weight = 0.3, .lambda = 0.5};
+        .prior_weight = f->options.prior_weight, .shortest_weight = 0.1, .lambda = 0.5};
     f->facts = gvc_alloc((size_t)source->frame_count, sizeof *f->facts);
     gvc_result result = f->facts ? GVC_OK : gvc_fail_memory(error);
     if (result == GVC_OK) result = gvc_tracker_create(&tracking, &f->tracker, error);

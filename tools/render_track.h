@@ -10,6 +10,7 @@
 typedef struct render_tracked {
     size_t index; /**< in the list of frames asked for */
     uint64_t frame;
+    uint64_t segment; /**< 0-based, counted from the first one followed */
     const gvc_mesh *mesh;
     const gvc_halfedges *halfedges;
     const gvc_cut_graph *graph;

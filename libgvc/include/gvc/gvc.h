@@ -186,7 +186,7 @@ typedef struct gvc_encode_options {
     bool weld; /**< weld exactly equal positions where that gives a manifold; default true */
     double persistence;  /**< least persistence of an extremum, of the range of mu; default 0.2 */
     double prior_weight; /**< strength of the temporal prior of the cut (Eq. 8); default 1 */
-    double curvature_weight; /**< exponent of the curvature metric; NaN: by rate; 0: none */
+    double curvature_weight; /**< exponent of the curvature metric; default 0.25; 0: none */
     /** Called from the calling thread; return false to cancel. May be NULL. */
     bool (*progress)(void *user, gvc_stage stage, uint64_t done, uint64_t total);
     /** Warnings, one line without newline; frame or GVC_NO_FRAME. May be NULL. */
