@@ -9,9 +9,9 @@ typedef struct setting {
     double crf, bound;
 } setting;
 
-static const setting coarse_to_fine[] = {
-    {16, 51, NO_BOUND}, {16, -12, 0.05}, {17, 30, NO_BOUND}, {33, 8, 0.012},     {48, 51, NO_BOUND},
-    {48, -12, 0.008},   {65, 8, 0.006},  {100, 30, 0.03},    {129, 51, NO_BOUND}};
+static const setting coarse_to_fine[] = {{16, 51, NO_BOUND}, {16, -12, 0.05},    {17, 30, NO_BOUND},
+                                         {33, 8, 0.012},     {48, -12, 0.008},   {65, 8, 0.006},
+                                         {100, 30, 0.03},    {129, 51, NO_BOUND}};
 
 static void check_settings(capture *frames, const setting *settings, size_t count) {
     for (size_t i = 0; i < count; i++) {

@@ -10,7 +10,7 @@ for i in 0 1 2 3 4 5 6 7 8 9; do
 done
 for signal in INT TERM; do
     # A shell starts background jobs with SIGINT ignored; the program catches it all the same.
-    "$gvc" encode --size 33 --gop 4 long -o out.gvc >stdout.txt 2>stderr.txt </dev/null &
+    "$gvc" encode -j1 --size 33 --gop 4 long -o out.gvc >stdout.txt 2>stderr.txt </dev/null &
     child=$!
     last="SIG$signal during encode"
     sleep 1
