@@ -36,11 +36,10 @@ static gvc_result read_input(void *user, uint64_t offset, void *data, size_t siz
     return GVC_OK;
 }
 
-static void read_record(const uint8_t *data, size_t size, uint32_t width, uint32_t height) {
+static void read_record(const uint8_t *data, size_t size, const gvc_config *config) {
     gvc_shape shape;
     gvc_shape_frame frame;
-    if (gvc_shape_record_read(data, size, width, height, FUZZ_MEMORY, &shape, &frame, NULL) !=
-        GVC_OK) {
+    if (gvc_shape_record_read(data, size, config, FUZZ_MEMORY, &shape, &frame, NULL) != GVC_OK) {
         return;
     }
     /* What was accepted must survive being written and read. */
@@ -48,8 +47,8 @@ static void read_record(const uint8_t *data, size_t size, uint32_t width, uint32
     gvc_shape back;
     gvc_shape_frame frame_back;
     if (gvc_shape_record_write(&shape, &frame, &record, NULL) != GVC_OK) abort();
-    if (gvc_shape_record_read(record.data, record.size, width, height, FUZZ_MEMORY, &back,
-                              &frame_back, NULL) != GVC_OK) {
+    if (gvc_shape_record_read(record.data, record.size, config, FUZZ_MEMORY, &back, &frame_back,
+                              NULL) != GVC_OK) {
         abort();
     }
     if (!gvc_shape_equal(&shape, &back) || strcmp(frame.source, frame_back.source) != 0) abort();
@@ -64,8 +63,7 @@ static void read_samples(const gvc_demux *demux, const gvc_io *io) {
         for (size_t i = 0; i < demux->sample_count[kind]; i++) {
             gvc_result result = gvc_demux_read(demux, io, (gvc_track_kind)kind, i, &sample, NULL);
             if (result == GVC_OK && kind == GVC_TRACK_SHAPE) {
-                read_record(sample.data, sample.size, demux->config.picture_width,
-                            demux->config.plane_height);
+                read_record(sample.data, sample.size, &demux->config);
             }
         }
     }
@@ -76,7 +74,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (size == 0) return 0;
     uint8_t option = data[0];
     if (option & OPTION_RECORD) {
-        read_record(data + 1, size - 1, FUZZ_PLANE, FUZZ_PLANE);
+        const gvc_config config = {
+            .picture_width = FUZZ_PLANE, .plane_height = FUZZ_PLANE, .image_size = FUZZ_PLANE};
+        read_record(data + 1, size - 1, &config);
         return 0;
     }
     input in = {data + 1, size - 1};

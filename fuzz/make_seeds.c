@@ -57,7 +57,6 @@ static gvc_result write_samples(gvc_writer *writer, const gvc_buffer *first,
     }
     gvc_fragment fragment = {0, 4, geometry, shape};
     GVC_TRY(gvc_writer_fragment(writer, &fragment, NULL));
-    geometry[0].sync = shape[0].sync = true;
     fragment = (gvc_fragment){4, FRAMES - 4, geometry, shape};
     GVC_TRY(gvc_writer_fragment(writer, &fragment, NULL));
     return gvc_writer_finish(writer, NULL);

@@ -29,10 +29,8 @@ struct gvc_decoder {
     bool flushed;
     uint64_t next_frame; /* presentation number of the next picture to come out */
 
-    gvc_shape shape; /* of frames shape_from ... in the fragment, while shape_known */
-    bool shape_known;
-    uint64_t shape_from;
-    gvc_weld *weld; /* one per chart of `shape` */
+    gvc_shape shape; /* of all frames of the fragment; no charts until known */
+    gvc_weld *weld;  /* one per chart of `shape` */
 
     uint16_t *codes; /* handed out by gvc_decoder_codes */
 };
@@ -44,7 +42,6 @@ static void forget_shape(gvc_decoder *decoder) {
     free(decoder->weld);
     decoder->weld = NULL;
     gvc_shape_free(&decoder->shape);
-    decoder->shape_known = false;
 }
 
 static void forget_fragment(gvc_decoder *decoder) {
@@ -175,26 +172,21 @@ static gvc_result build_welds(gvc_decoder *decoder, gvc_error *error) {
     return GVC_OK;
 }
 
-/* Makes decoder->shape that of `frame`; in order this reads one small record a frame. */
+/* Makes decoder->shape that of the fragment, of which it must be empty or known already. The record
+ * of `frame` itself is always read, for its digest. */
 static gvc_result seek_shape(gvc_decoder *decoder, size_t fragment, uint64_t frame,
                              gvc_shape_frame *facts, gvc_error *error) {
     gvc_shape shape;
-    uint64_t owner;
-    GVC_TRY(gvc_reader_shape(decoder->reader, fragment, frame, &shape, facts, &owner, error));
-    if (decoder->shape_known && decoder->shape_from == owner) {
+    GVC_TRY(gvc_reader_record(decoder->reader, fragment, frame, &shape, facts, error));
+    if (decoder->weld) {
         gvc_shape_free(&shape);
         return GVC_OK;
     }
-    forget_shape(decoder);
+    if (facts->same) GVC_TRY(gvc_reader_shape(decoder->reader, fragment, &shape, error));
     decoder->shape = shape;
     gvc_result result = build_welds(decoder, error);
-    if (result != GVC_OK) {
-        forget_shape(decoder);
-        return result;
-    }
-    decoder->shape_known = true;
-    decoder->shape_from = owner;
-    return GVC_OK;
+    if (result != GVC_OK) forget_shape(decoder);
+    return result;
 }
 
 /* ---------------------------------------------------------------------------------------- mesh */

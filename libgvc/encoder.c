@@ -20,6 +20,8 @@
 #define BLOCK 16 /* pictures are padded to whole macroblocks, so that no block spans two planes */
 #define FIRST_CRF 8.0
 #define SIZE_FRAMES 3
+/* A new layout must lower the sampling error at least to this share to begin a segment. */
+#define WORTH_A_LAYOUT 0.9
 #define SIZE_SAMPLES 10000
 
 typedef struct encoder {
@@ -36,7 +38,8 @@ typedef struct encoder {
     gvc_tracker *tracker;
     gvc_segment segment;
     bool in_segment;
-    uint32_t size; /* of all images; 0 until chosen */
+    uint64_t segment_start; /* frame whose cut it began with */
+    uint32_t size;          /* of all images; 0 until chosen */
     gvc_group group;
     gvc_writer *writer; /* NULL until the first group is coded */
     double crf;         /* of the last group: guess for the next */
@@ -166,10 +169,6 @@ static gvc_result predict_cost(size_context *context, size_t frames, double *cos
     double square = 0;
     gvc_result result =
         gvc_parallel_for(context->e->options.threads, frames, try_size, context, error);
-    if (result == GVC_ERROR_MESH) { /* too small for the cut */
-        *cost = INFINITY;
-        return GVC_OK;
-    }
     for (size_t i = 0; i < frames; i++) square += context->square[i] / (double)frames;
     *cost = square < 1 ? 0.8 * log(context->size) - 0.7 * log(1 - square) : INFINITY;
     return result;
@@ -197,21 +196,36 @@ static gvc_result choose_size(encoder *e, size_t first, size_t end, gvc_error *e
     return GVC_OK;
 }
 
-/* A frame's halfedges as they were before a cut was tried. */
-static gvc_result restore_halfedges(gvc_frame_work *work, gvc_error *error) {
+/* A frame as it was before a cut was tried. */
+static gvc_result restore_frame(gvc_frame_work *work, gvc_error *error) {
+    gvc_cut_graph_free(&work->graph);
     gvc_halfedges_free(&work->halfedges);
     return gvc_halfedges_build(work->mesh, 0, &work->halfedges, error);
 }
 
+/* Cuts the first frame of a segment to `extrema` tips and lays its border out. */
+static gvc_result try_cut(encoder *e, gvc_frame_work *work, size_t extrema, gvc_error *error) {
+    GVC_TRY(restore_frame(work, error));
+    GVC_TRY(gvc_tracker_start(e->tracker, &work->features, extrema, &work->halfedges, &work->graph,
+                              error));
+    return gvc_segment_layout(&e->segment, work, e->size, e->options.threads, error);
+}
+
 static gvc_result begin_segment(encoder *e, gvc_frame_work *work, gvc_error *error) {
-    if (e->in_segment) GVC_TRY(restore_halfedges(work, error));
     gvc_segment_free(&e->segment);
     e->in_segment = false;
     GVC_TRY(gvc_segment_begin(e->source, &e->options, e->facts, e->report.segment_count,
                               work->number, &e->segment, error));
-    GVC_TRY(gvc_tracker_start(e->tracker, &work->features, e->segment.extremum_count,
-                              &work->halfedges, &work->graph, error));
-    GVC_TRY(gvc_segment_layout(&e->segment, work, e->size, e->options.threads, error));
+    /* A chart that folds over itself may come out whole with a longer or a shorter cut. */
+    static const int more[] = {0, 1, 2, -1};
+    gvc_result result = GVC_ERROR_MESH;
+    for (size_t i = 0; i < sizeof more / sizeof *more && result == GVC_ERROR_MESH; i++) {
+        if (more[i] < 0 && e->segment.extremum_count == 0) break;
+        size_t extrema = e->segment.extremum_count + (size_t)more[i];
+        if (i > 0 && extrema > work->features.extremum_count) continue;
+        result = try_cut(e, work, extrema, error);
+    }
+    if (result != GVC_OK) return gvc_at_frame(error, result, (int64_t)work->number);
     e->report.segment_count++;
     e->in_segment = true;
     return GVC_OK;
@@ -225,6 +239,31 @@ static gvc_result settle_size(encoder *e, size_t first, size_t end, gvc_error *e
     gvc_picture_layout layout = {padded, padded};
     GVC_TRY(gvc_group_create(e->options.gop, layout, &e->group, error));
     return gvc_segment_resize(&e->segment, &e->work[first], e->size, error);
+}
+
+/* A group begins with a keyframe anyway, so a better layout costs nothing there: lengths have
+ * changed since the segment began, and what was a good place for the corners need not be one still.
+ * The cut graph goes on as it is. */
+static gvc_result refresh_layout(encoder *e, const gvc_frame_work *work, gvc_error *error) {
+    double now, fresh;
+    gvc_segment next = e->segment;
+    next.run = NULL;
+    next.sides = (gvc_side_table){0};
+    next.weld = (gvc_weld){0};
+    GVC_TRY(gvc_segment_sampling_rms(&e->segment, work, e->size, SIZE_SAMPLES, &now, error));
+    gvc_result result = gvc_segment_layout(&next, work, e->size, e->options.threads, error);
+    if (result == GVC_OK) {
+        result = gvc_segment_sampling_rms(&next, work, e->size, SIZE_SAMPLES, &fresh, error);
+    }
+    if (result == GVC_ERROR_MESH) result = GVC_OK, fresh = INFINITY; /* none is to be had */
+    if (result == GVC_OK && fresh < WORTH_A_LAYOUT * now) {
+        gvc_segment old = e->segment;
+        next.number = e->report.segment_count++;
+        e->segment = next;
+        next = old;
+    }
+    gvc_segment_free(&next);
+    return result;
 }
 
 /* Finds the cut of the next frame, in order. *continues is false, and nothing is kept, if a new
@@ -246,11 +285,13 @@ static gvc_result analyse_one(void *user, size_t index, gvc_error *error) {
 
 typedef struct image_context {
     encoder *e;
-    size_t first; /* in the batch */
+    size_t first;           /* in the batch */
+    bool unfit[BATCH];      /* no chart without folds was found */
+    gvc_error error[BATCH]; /* why */
 } image_context;
 
 static gvc_result image_one(void *user, size_t index, gvc_error *error) {
-    const image_context *context = user;
+    image_context *context = user;
     encoder *e = context->e;
     const gvc_segment *segment = &e->segment;
     size_t samples = (size_t)3 * e->size * e->size;
@@ -260,7 +301,9 @@ static gvc_result image_one(void *user, size_t index, gvc_error *error) {
     gvc_result result = image && luma ? GVC_OK : gvc_fail_memory(error);
     if (result == GVC_OK) {
         result = gvc_frame_image(&e->work[context->first + index], &segment->sides, &segment->weld,
-                                 &segment->image_options, image, NULL, error);
+                                 &segment->image_options, image, NULL, &context->error[index]);
+        context->unfit[index] = result == GVC_ERROR_MESH;
+        if (result != GVC_OK && result != GVC_ERROR_MESH && error) *error = context->error[index];
     }
     if (result == GVC_OK) {
         gvc_segment_quantise(segment, image, e->group.layout, luma);
@@ -269,30 +312,42 @@ static gvc_result image_one(void *user, size_t index, gvc_error *error) {
     }
     free(image);
     free(luma);
-    return result;
+    return result == GVC_ERROR_MESH ? GVC_OK : result;
 }
 
-/* Turns frames first ... end - 1 of the batch, which have their cut, into pictures of the group. */
-static gvc_result add_images(encoder *e, size_t first, size_t end, gvc_error *error) {
+static void drop_images(gvc_group *group, size_t from, size_t end) {
+    for (size_t i = from; i < end; i++) {
+        free(group->frame[i].luma);
+        group->frame[i].luma = NULL;
+    }
+}
+
+/* Turns frames first ... *end - 1 of the batch, which have their cut, into pictures of the group.
+ * Stops before the first that has no chart without folds, and sets *end to it. */
+static gvc_result add_images(encoder *e, size_t first, size_t *end, gvc_error *error) {
     gvc_group *group = &e->group;
     image_context context = {.e = e, .first = first};
+    size_t count = *end - first, good = 0;
     if (group->count == 0) {
         group->segment = &e->segment;
         group->first_frame = e->work[first].number;
         GVC_TRY(gvc_segment_shape(&e->segment, &e->work[first].graph, &group->shape, error));
     }
-    gvc_result result =
-        gvc_parallel_for(e->options.threads, end - first, image_one, &context, error);
-    if (result != GVC_OK) {
-        for (size_t i = 0; i < end - first; i++) {
-            free(group->frame[group->count + i].luma);
-            group->frame[group->count + i].luma = NULL;
-        }
-        return result;
+    gvc_result result = gvc_parallel_for(e->options.threads, count, image_one, &context, error);
+    if (result == GVC_OK) {
+        while (good < count && !context.unfit[good]) good++;
     }
-    group->count += end - first;
-    for (size_t i = first; i < end; i++) gvc_frame_free(&e->work[i]);
-    return group->count == group->capacity ? flush_group(e, error) : GVC_OK;
+    drop_images(group, group->count + good, group->count + count);
+    if (result != GVC_OK) return result;
+    if (good == 0 && e->segment_start == e->work[first].number) {
+        /* a new segment is all that could help, and this is one */
+        if (error) *error = context.error[0];
+        return GVC_ERROR_MESH;
+    }
+    group->count += good;
+    for (size_t i = first; i < first + good; i++) gvc_frame_free(&e->work[i]);
+    *end = first + good;
+    return GVC_OK;
 }
 
 /* Cuts as many frames of the batch from `first` on as the segment and the group take, then makes
@@ -303,24 +358,26 @@ static gvc_result encode_run(encoder *e, size_t first, size_t *end, gvc_error *e
     if (!continues) {
         GVC_TRY(flush_group(e, error));
         GVC_TRY(begin_segment(e, &e->work[first], error));
+        e->segment_start = e->work[first].number;
+    } else if (e->group.count == 0) {
+        GVC_TRY(refresh_layout(e, &e->work[first], error));
     }
-    size_t room = e->options.gop - e->group.count;
-    size_t i = first + 1;
-    while (i < e->batch_count && i - first < room) {
-        GVC_TRY(follow(e, &e->work[i], &continues, error));
+    size_t room = e->options.gop - e->group.count, cut = first + 1;
+    while (cut < e->batch_count && cut - first < room) {
+        GVC_TRY(follow(e, &e->work[cut], &continues, error));
         if (!continues) break;
-        i++;
+        cut++;
     }
-    bool broken = i < e->batch_count && i - first < room;
-    *end = i;
-    if (e->size == 0) GVC_TRY(settle_size(e, first, i, error));
-    GVC_TRY(add_images(e, first, i, error));
-    if (broken) {
-        /* frame i was tried already: it starts a segment */
+    bool broken = cut < e->batch_count && cut - first < room;
+    *end = cut;
+    if (e->size == 0) GVC_TRY(settle_size(e, first, cut, error));
+    GVC_TRY(add_images(e, first, end, error));
+    for (size_t i = *end; i < cut; i++) GVC_TRY(restore_frame(&e->work[i], error));
+    if (broken || *end < cut) {
         GVC_TRY(flush_group(e, error));
-        e->segment.end_frame = e->work[i].number;
+        e->segment.end_frame = e->work[*end].number; /* it starts a segment */
     }
-    return GVC_OK;
+    return e->group.count == e->options.gop ? flush_group(e, error) : GVC_OK;
 }
 
 static gvc_result encode_batch(encoder *e, gvc_error *error) {
@@ -355,8 +412,9 @@ gvc_result gvc_encode(const gvc_source *source, const gvc_sink *sink,
     encoder *e = gvc_alloc(1, sizeof *e);
     if (!e) return gvc_fail_memory(error);
     *e = (encoder){.source = source, .sink = sink, .options = *options, .crf = FIRST_CRF};
-    gvc_tracker_options tracking = {
-        .prior_weight = options->prior_weight, .shortest_weight = 0.1, .lambda = 0.5};
+    gvc_tracker_options tracking;
+    gvc_tracker_options_init(&tracking);
+    tracking.prior_weight = options->prior_weight;
     e->facts = gvc_alloc((size_t)source->frame_count, sizeof *e->facts);
     gvc_result result = e->facts ? GVC_OK : gvc_fail_memory(error);
     if (result == GVC_OK) result = gvc_tracker_create(&tracking, &e->tracker, error);

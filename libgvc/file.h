@@ -20,11 +20,14 @@ struct gvc_reader {
 gvc_result gvc_reader_find(const gvc_reader *reader, uint64_t frame, size_t *fragment,
                            gvc_error *error);
 
-/** Shape and per-frame facts of a frame of a fragment. `shape` (freed by the caller) is read from
- * the frame's own record or from the nearest one before it that does not say "as before"; `*owner`
- * is that record's frame. */
-gvc_result gvc_reader_shape(const gvc_reader *reader, size_t fragment, uint64_t frame,
-                            gvc_shape *shape, gvc_shape_frame *facts, uint64_t *owner,
+/** Per-frame facts of a frame of a fragment, and, if it is the fragment's first, the shape that all
+ * frames of the fragment have; else `shape` stays empty (freed by the caller in either case).
+ * Refuses a record that is whole where it should say "same", or the reverse. */
+gvc_result gvc_reader_record(const gvc_reader *reader, size_t fragment, uint64_t frame,
+                             gvc_shape *shape, gvc_shape_frame *facts, gvc_error *error);
+
+/** Shape of all frames of a fragment, from its first record; freed by the caller. */
+gvc_result gvc_reader_shape(const gvc_reader *reader, size_t fragment, gvc_shape *shape,
                             gvc_error *error);
 
 /** The geometry image of a chart as it comes out of the picture, before twins are welded: `*plane`

@@ -59,10 +59,6 @@ static gvc_result make_reader(const gvc_read_options *options, gvc_reader **read
 /* Parses through made->io and hands the reader out, or frees it. */
 static gvc_result finish_open(gvc_reader *made, gvc_reader **reader, gvc_error *error) {
     gvc_result result = gvc_demux_open(&made->io, &made->options, &made->demux, error);
-    if (result == GVC_OK && made->demux.config.image_size > made->options.max_image_size) {
-        result = gvc_fail(error, GVC_ERROR_LIMIT, "images of %u samples a side exceed the limit %u",
-                          made->demux.config.image_size, made->options.max_image_size);
-    }
     if (result != GVC_OK) {
         gvc_reader_close(&made);
         return gvc_explain(error, result);
@@ -166,74 +162,67 @@ gvc_result gvc_reader_find(const gvc_reader *reader, uint64_t frame, size_t *fra
     return GVC_OK;
 }
 
-/* Index of a frame's shape sample: shape samples of a fragment lie in presentation order without
- * gap. */
-static size_t shape_index(const gvc_fragment_entry *fragment, uint64_t frame) {
-    return fragment->first_sample[GVC_TRACK_SHAPE] + (size_t)(frame - fragment->first_frame);
-}
-
-static gvc_result read_record(const gvc_reader *reader, size_t index, gvc_buffer *buffer,
-                              gvc_shape *shape, gvc_shape_frame *facts, gvc_error *error) {
+static gvc_result read_record(const gvc_reader *reader, size_t index, gvc_shape *shape,
+                              gvc_shape_frame *facts, gvc_error *error) {
     const gvc_demux *demux = &reader->demux;
-    const gvc_sample_entry *sample = &demux->sample[GVC_TRACK_SHAPE][index];
-    GVC_TRY(gvc_demux_read(demux, &reader->io, GVC_TRACK_SHAPE, index, buffer, error));
+    gvc_buffer buffer = {0};
     uint64_t limit = reader->options.max_memory;
-    gvc_result result = gvc_shape_record_read(
-        buffer->data, buffer->size, demux->config.picture_width, demux->config.plane_height,
-        limit > SIZE_MAX ? SIZE_MAX : (size_t)limit, shape, facts, error);
-    if (result != GVC_OK && error && error->offset == GVC_NO_OFFSET) {
-        error->offset = sample->offset;
-        snprintf(error->where, sizeof error->where, "mdat/shape record");
+    gvc_result result = gvc_demux_read(demux, &reader->io, GVC_TRACK_SHAPE, index, &buffer, error);
+    if (result == GVC_OK) {
+        result =
+            gvc_shape_record_read(buffer.data, buffer.size, &demux->config,
+                                  limit > SIZE_MAX ? SIZE_MAX : (size_t)limit, shape, facts, error);
     }
+    gvc_buffer_free(&buffer);
     return result;
 }
 
-gvc_result gvc_reader_shape(const gvc_reader *reader, size_t fragment, uint64_t frame,
-                            gvc_shape *shape, gvc_shape_frame *facts, uint64_t *owner,
-                            gvc_error *error) {
-    const gvc_fragment_entry *entry = &reader->demux.fragment[fragment];
-    gvc_buffer buffer = {0};
-    gvc_shape_frame earlier;
-    uint64_t at = frame;
+gvc_result gvc_reader_record(const gvc_reader *reader, size_t fragment, uint64_t frame,
+                             gvc_shape *shape, gvc_shape_frame *facts, gvc_error *error) {
+    const gvc_demux *demux = &reader->demux;
+    const gvc_fragment_entry *entry = &demux->fragment[fragment];
+    size_t index = gvc_demux_sample_of(demux, entry, GVC_TRACK_SHAPE, frame);
+    bool first = frame == entry->first_frame;
     *shape = (gvc_shape){0};
-    gvc_result result = read_record(reader, shape_index(entry, at), &buffer, shape, facts, error);
-    bool same = result == GVC_OK && facts->same;
-    while (same && result == GVC_OK) {
-        if (at == entry->first_frame) {
-            result = gvc_fail(error, GVC_ERROR_CORRUPT,
-                              "the first shape record of a fragment says \"as before\"");
-            break;
-        }
-        at--;
-        result = read_record(reader, shape_index(entry, at), &buffer, shape, &earlier, error);
-        same = result == GVC_OK && earlier.same;
+    gvc_result result = read_record(reader, index, shape, facts, error);
+    if (result == GVC_OK && facts->same == first) {
+        gvc_shape_free(shape);
+        result = gvc_fail(error, GVC_ERROR_CORRUPT,
+                          first ? "the first shape record of a fragment says \"same\""
+                                : "a shape record inside a fragment does not say \"same\"");
     }
-    gvc_buffer_free(&buffer);
-    if (result != GVC_OK) gvc_shape_free(shape);
-    *owner = at;
+    if (result != GVC_OK && error && error->offset == GVC_NO_OFFSET) {
+        error->offset = demux->sample[GVC_TRACK_SHAPE][index].offset;
+        snprintf(error->where, sizeof error->where, "mdat/shape record");
+    }
     return gvc_at_frame(error, result, (int64_t)frame);
+}
+
+gvc_result gvc_reader_shape(const gvc_reader *reader, size_t fragment, gvc_shape *shape,
+                            gvc_error *error) {
+    gvc_shape_frame facts;
+    uint64_t first = reader->demux.fragment[fragment].first_frame;
+    return gvc_reader_record(reader, fragment, first, shape, &facts, error);
 }
 
 gvc_result gvc_reader_frame_info(const gvc_reader *reader, uint64_t frame, gvc_frame_info *info,
                                  gvc_error *error) {
     size_t fragment;
-    uint64_t owner;
     gvc_shape shape;
     gvc_shape_frame facts;
     *info = (gvc_frame_info){0};
     GVC_TRY(gvc_reader_find(reader, frame, &fragment, error));
-    GVC_TRY(gvc_reader_shape(reader, fragment, frame, &shape, &facts, &owner, error));
+    GVC_TRY(gvc_reader_record(reader, fragment, frame, &shape, &facts, error));
+    if (facts.same) GVC_TRY(gvc_reader_shape(reader, fragment, &shape, error));
 
     const gvc_demux *demux = &reader->demux;
     const gvc_fragment_entry *entry = &demux->fragment[fragment];
-    info->byte_count = demux->sample[GVC_TRACK_SHAPE][shape_index(entry, frame)].size;
-    for (size_t i = 0; i < entry->frame_count; i++) {
-        const gvc_sample_entry *sample =
-            &demux->sample[GVC_TRACK_GEOMETRY][entry->first_sample[GVC_TRACK_GEOMETRY] + i];
-        if (sample->presentation != frame) continue;
-        info->byte_count += sample->size;
-        info->keyframe = sample->sync;
+    for (unsigned kind = 0; kind < GVC_TRACK_KINDS; kind++) {
+        size_t index = gvc_demux_sample_of(demux, entry, (gvc_track_kind)kind, frame);
+        info->byte_count += demux->sample[kind][index].size;
     }
+    info->keyframe = gvc_demux_sample_of(demux, entry, GVC_TRACK_GEOMETRY, frame) ==
+                     entry->first_sample[GVC_TRACK_GEOMETRY];
     info->segment = shape.segment;
     info->chart_count = (uint32_t)shape.chart_count;
     for (size_t c = 0; c < shape.chart_count; c++) {

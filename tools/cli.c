@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /** @file cli.c  Messages, numbers, signals and progress of the subcommands. */
 #include "cli.h"
+#include "json.h"
 
 #include "base/text.h"
 
@@ -52,16 +53,9 @@ void cli_warn(const char *command, const char *format, ...) {
 }
 
 void cli_json_string(FILE *file, const char *text) {
+    char escaped[JSON_ESCAPED];
     fputc('"', file);
-    for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
-        if (*c == '"' || *c == '\\') {
-            fprintf(file, "\\%c", *c);
-        } else if (*c < 0x20) {
-            fprintf(file, "\\u%04x", *c);
-        } else {
-            fputc(*c, file);
-        }
-    }
+    while (*text) fwrite(escaped, 1, json_escape(&text, escaped), file);
     fputc('"', file);
 }
 

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/** @file cli.h  What the subcommands of gvc share: exit status, messages, numbers, output files,
- * progress. */
+/** @file cli.h  What the subcommands of gvc share: exit status, messages, numbers, progress. */
 #ifndef GVC_TOOLS_CLI_H
 #define GVC_TOOLS_CLI_H
 
@@ -29,6 +28,8 @@ void cli_warn(const char *command, const char *format, ...) __attribute__((forma
 /** Makes the folder that `path` lies in, if it is missing; EXIT_DONE or, with a message, EXIT_DATA.
  */
 int cli_make_folder(const char *command, const char *path);
+/** Whether a file that only -f would replace has this name; then it is told. */
+bool cli_in_the_way(const char *command, const char *path);
 
 /** Whole-string numbers, independent of the locale; false if malformed or out of range. */
 bool cli_uint(const char *text, uint64_t least, uint64_t most, uint64_t *value);
@@ -44,21 +45,6 @@ bool cli_range(const char *text, uint64_t count, uint64_t *first, uint64_t *last
 bool cli_interrupted(void);
 void cli_catch_signals(void);
 
-/** An output file that appears under its name only when whole. "-" is standard output. */
-typedef struct cli_output {
-    FILE *file;
-    char *path, *temporary;
-    bool overwrite, standard;
-} cli_output;
-
-/** False, with `error` filled, if the file exists and `overwrite` is not set, or cannot be made. */
-bool cli_output_open(cli_output *output, const char *path, bool overwrite, gvc_error *error);
-gvc_result cli_output_write(void *output, const void *data, size_t size, gvc_error *error);
-/** Gives the file its name. */
-bool cli_output_commit(cli_output *output, gvc_error *error);
-/** Removes what was written, unless it was committed. */
-void cli_output_discard(cli_output *output);
-
 /** Progress on stderr: in place on a terminal, silent otherwise. */
 typedef struct cli_progress {
     const char *verb; /**< "encoding" */
@@ -73,7 +59,7 @@ void cli_progress_end(cli_progress *progress);
 /** Seconds of a clock that never goes back. */
 double cli_now(void);
 
-/** A string in JSON, quoted and escaped. */
+/** A string in JSON, quoted and escaped; bytes that are not UTF-8 become U+FFFD. */
 void cli_json_string(FILE *file, const char *text);
 
 #endif

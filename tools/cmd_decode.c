@@ -6,7 +6,6 @@
 #include <getopt.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 static const char usage[] =
     "usage: gvc decode [options] capture.gvc -o 'out/%04d.obj'\n"
@@ -113,8 +112,7 @@ static int check_output(const decode_arguments *a) {
     if (status != EXIT_DONE) return status;
     for (uint64_t f = a->first; !a->force && f <= a->last; f++) {
         path = frame_path(a, f);
-        bool there = path && strcmp(path, "-") != 0 && access(path, F_OK) == 0;
-        if (there) fprintf(stderr, "gvc decode: %s: exists; not overwritten without -f\n", path);
+        bool there = path && cli_in_the_way("decode", path);
         free(path);
         if (there) return EXIT_DATA;
     }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /** @file cmd_encode.c  gvc encode. */
+#include "base/output.h"
 #include "cli.h"
 #include "frames.h"
 
@@ -182,27 +183,29 @@ static void summarise(const encode_arguments *a, const gvc_encode_report *report
 
 static int encode(encode_arguments *a, frame_list *list) {
     gvc_error error;
-    cli_output output;
+    gvc_output output;
     gvc_encode_report report;
     double started = cli_now();
     gvc_error_init(&error);
-    if (!cli_output_open(&output, a->output, a->force, &error)) {
+    if (!a->force && cli_in_the_way("encode", a->output)) return EXIT_DATA;
+    if (gvc_output_begin(a->output, a->force, &output, &error) != GVC_OK) {
         return cli_fail("encode", a->output, &error);
     }
     gvc_source source = frame_list_source(list);
-    gvc_sink sink = {.user = &output, .write = cli_output_write};
+    gvc_sink sink = {.user = &output, .write = gvc_output_write};
     a->scanning = true;
     cli_progress_begin(&a->progress, "reading", a->quiet);
     gvc_result result = gvc_encode(&source, &sink, &a->options, &report, &error);
     cli_progress_end(&a->progress);
-    int status = EXIT_DONE;
-    if (result != GVC_OK || !cli_output_commit(&output, &error)) {
-        status = cli_fail("encode", a->output, &error);
+    if (result == GVC_OK) {
+        gvc_output_sync(&output);
+        result = gvc_output_end(&output, &error);
     } else {
-        summarise(a, &report, cli_now() - started);
+        gvc_output_discard(&output);
     }
-    cli_output_discard(&output);
-    return status;
+    if (result != GVC_OK) return cli_fail("encode", a->output, &error);
+    summarise(a, &report, cli_now() - started);
+    return EXIT_DONE;
 }
 
 int cmd_encode(int argc, char **argv) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /** @file cmd_render.c  gvc render. */
+#include "base/output.h"
 #include "base/text.h"
 #include "render_job.h"
 
@@ -173,23 +174,23 @@ static int draw(render_job *job, render_image **image) {
 int cmd_render(int argc, char **argv) {
     render_job job = {.size = 480, .weld = true};
     render_image *image = NULL;
-    cli_output output;
+    gvc_output output;
     gvc_error error;
     render_view_init(&job.view);
     int status = parse(&job, argc, argv);
     if (status != EXIT_DONE) return status < 0 ? EXIT_DONE : status;
     gvc_error_init(&error);
     /* Opened first: a picture that cannot be written is not drawn. */
-    if (!cli_output_open(&output, job.output, job.force, &error)) {
+    if (!job.force && cli_in_the_way("render", job.output)) return EXIT_DATA;
+    if (gvc_output_begin(job.output, job.force, &output, &error) != GVC_OK) {
         return cli_fail("render", job.output, &error);
     }
     status = draw(&job, &image);
-    if (status == EXIT_DONE &&
-        (render_image_write_stream(image, output.file, job.output, &error) != GVC_OK ||
-         !cli_output_commit(&output, &error))) {
+    if (status == EXIT_DONE && (render_image_write(image, &output, &error) != GVC_OK ||
+                                gvc_output_end(&output, &error) != GVC_OK)) {
         status = cli_fail("render", job.output, &error);
     }
-    cli_output_discard(&output);
+    gvc_output_discard(&output);
     render_image_destroy(&image);
     return status;
 }

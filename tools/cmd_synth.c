@@ -7,7 +7,6 @@
 
 #include <getopt.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 static const char usage[] =
     "usage: gvc synth [options] -o 'frames/%04d.ply'\n"
@@ -109,8 +108,7 @@ static int check_files(const synth_arguments *a) {
     for (uint64_t frame = 0; !a->force && frame < a->options.frame_count; frame++) {
         char *path;
         if (!pattern_fill(a->output, frame, &path)) return EXIT_DATA;
-        bool there = access(path, F_OK) == 0;
-        if (there) fprintf(stderr, "gvc synth: %s: exists; not overwritten without -f\n", path);
+        bool there = cli_in_the_way("synth", path);
         free(path);
         if (there) return EXIT_DATA;
     }

@@ -18,7 +18,8 @@ add_library(gvc_compare OBJECT
   "${CMAKE_CURRENT_LIST_DIR}/compare_draco.cc"
   "${CMAKE_CURRENT_LIST_DIR}/compare_gvc.c"
   "${CMAKE_CURRENT_LIST_DIR}/compare_print.c"
-  "${CMAKE_CURRENT_LIST_DIR}/compare_zip.c")
+  "${CMAKE_CURRENT_LIST_DIR}/compare_zip.c"
+  "${CMAKE_CURRENT_LIST_DIR}/json.c")
 target_include_directories(gvc_compare PUBLIC
   "${CMAKE_CURRENT_LIST_DIR}" "${PROJECT_SOURCE_DIR}/libgvc/include" "${PROJECT_SOURCE_DIR}/libgvc")
 target_link_libraries(gvc_compare PUBLIC gvc gvc_base PkgConfig::LIBZIP PkgConfig::DRACO)

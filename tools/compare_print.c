@@ -2,6 +2,7 @@
 /** @file compare_print.c  The comparison as a table, as JSON and as CSV. */
 #include "base/text.h"
 #include "compare.h"
+#include "json.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -123,18 +124,10 @@ static void append_number(gvc_buffer *text, double value, const char *absent) {
     append(text, cell);
 }
 
-/* RFC 8259: quotes, backslashes and control characters are escaped, the rest is UTF-8 as it is. */
 static void append_json_string(gvc_buffer *text, const char *string) {
+    char escaped[JSON_ESCAPED];
     append(text, "\"");
-    for (const char *c = string; *c; c++) {
-        char escaped[8] = {*c, 0};
-        if (*c == '"' || *c == '\\') {
-            snprintf(escaped, sizeof escaped, "\\%c", *c);
-        } else if ((unsigned char)*c < 0x20) {
-            snprintf(escaped, sizeof escaped, "\\u%04x", (unsigned)(unsigned char)*c);
-        }
-        append(text, escaped);
-    }
+    while (*string) gvc_write_bytes(text, escaped, json_escape(&string, escaped));
     append(text, "\"");
 }
 

@@ -5,7 +5,6 @@
 #include "base/memory.h"
 #include "base/result.h"
 #include "base/text.h"
-#include "mesh/file.h"
 
 #include <ctype.h>
 #include <dirent.h>

@@ -163,8 +163,7 @@ static gvc_result draw(versus *v, render_image **image, gvc_error *error) {
     }
     if (result == GVC_OK) result = add_legend(v, page.image[1]->width, &page, error);
     if (result == GVC_OK) result = render_capture_keys(page.image[1]->width, &page, error);
-    if (result == GVC_OK) result = render_parts_column(&page, RENDER_GAP, image, error);
-    if (result == GVC_OK) result = render_margin(image, RENDER_GAP, error);
+    if (result == GVC_OK) result = render_parts_page(&page, RENDER_GAP, image, error);
     render_parts_free(&page);
     return result;
 }

@@ -157,11 +157,9 @@ static void draw_border(render_image *image, const gvc_chart_shape *chart) {
 
 static gvc_result frame_shape(const render_capture *capture, uint64_t frame, gvc_shape *shape,
                               gvc_error *error) {
-    gvc_shape_frame facts;
     size_t fragment;
-    uint64_t owner;
     GVC_TRY(gvc_reader_find(capture->reader, frame, &fragment, error));
-    return gvc_reader_shape(capture->reader, fragment, frame, shape, &facts, &owner, error);
+    return gvc_reader_shape(capture->reader, fragment, shape, error);
 }
 
 gvc_result render_capture_image(render_capture *capture, uint64_t frame, size_t side,

@@ -3,9 +3,7 @@
 #ifndef GVC_TOOLS_RENDER_IMAGE_H
 #define GVC_TOOLS_RENDER_IMAGE_H
 
-#include "gvc/gvc.h"
-
-#include <stdio.h>
+#include "base/output.h"
 
 typedef struct render_color {
     uint8_t r, g, b;
@@ -41,11 +39,7 @@ size_t render_image_text(render_image *image, size_t x, size_t y, size_t scale, 
                          render_color color);
 size_t render_text_width(const char *text, size_t scale);
 
-/** Writes a PNG file under a temporary name beside `path` and renames it when whole; an existing
- * file is replaced. "-": standard output. */
-gvc_result render_image_write(const render_image *image, const char *path, gvc_error *error);
-/** Writes the same to an open file, which is flushed; `path` is used in messages only. */
-gvc_result render_image_write_stream(const render_image *image, FILE *file, const char *path,
-                                     gvc_error *error);
+/** Writes all of a PNG file to `output`. */
+gvc_result render_image_write(const render_image *image, gvc_output *output, gvc_error *error);
 
 #endif

@@ -56,8 +56,7 @@ static gvc_result draw(const render_job *job, render_capture *capture, render_im
     if (result == GVC_OK) {
         result = render_capture_keys(page.image[page.count - 1]->width, &page, error);
     }
-    if (result == GVC_OK) result = render_parts_column(&page, RENDER_GAP, image, error);
-    if (result == GVC_OK) result = render_margin(image, RENDER_GAP, error);
+    if (result == GVC_OK) result = render_parts_page(&page, RENDER_GAP, image, error);
     render_parts_free(&page);
     return result;
 }

@@ -65,9 +65,23 @@ gvc_result render_parts_row(const render_parts *parts, size_t gap, render_image 
     return join(parts, false, gap, image, error);
 }
 
-gvc_result render_parts_column(const render_parts *parts, size_t gap, render_image **image,
-                               gvc_error *error) {
-    return join(parts, true, gap, image, error);
+/* Replaces `*image` by one with a margin around. */
+static gvc_result add_margin(render_image **image, size_t margin, gvc_error *error) {
+    render_image *whole;
+    GVC_TRY(render_image_create((*image)->width + 2 * margin, (*image)->height + 2 * margin, white,
+                                &whole, error));
+    render_image_paste(whole, *image, margin, margin);
+    render_image_destroy(image);
+    *image = whole;
+    return GVC_OK;
+}
+
+gvc_result render_parts_page(const render_parts *parts, size_t gap, render_image **image,
+                             gvc_error *error) {
+    GVC_TRY(join(parts, true, gap, image, error));
+    gvc_result result = add_margin(image, gap, error);
+    if (result != GVC_OK) render_image_destroy(image);
+    return result;
 }
 
 gvc_result render_parts_move_row(render_parts *parts, size_t gap, render_parts *into,
@@ -137,16 +151,6 @@ gvc_result render_parts_keys(render_parts *parts, const render_key *key, size_t 
         x += key_width(&key[i]);
     }
     return render_parts_add(parts, image, error);
-}
-
-gvc_result render_margin(render_image **image, size_t margin, gvc_error *error) {
-    render_image *whole;
-    GVC_TRY(render_image_create((*image)->width + 2 * margin, (*image)->height + 2 * margin, white,
-                                &whole, error));
-    render_image_paste(whole, *image, margin, margin);
-    render_image_destroy(image);
-    *image = whole;
-    return GVC_OK;
 }
 
 const char *render_count(char text[32], uint64_t count) {

@@ -16,13 +16,14 @@ typedef struct render_parts {
 gvc_result render_parts_add(render_parts *parts, render_image *image, gvc_error *error);
 void render_parts_free(render_parts *parts);
 
-/** Joins the parts, `gap` apart, on a white ground: in a row, aligned at their lower edges, or in a
- * column, aligned at the left. GVC_ERROR_ARGUMENT if there are none. */
+/** Joins the parts, `gap` apart, on a white ground: in a row, aligned at their lower edges.
+ * GVC_ERROR_ARGUMENT if there are none. */
 gvc_result render_parts_row(const render_parts *parts, size_t gap, render_image **image,
                             gvc_error *error);
-gvc_result render_parts_column(const render_parts *parts, size_t gap, render_image **image,
-                               gvc_error *error);
-/** The same, appended to `into`; `parts` is emptied. */
+/** The same in a column, aligned at the left, with a margin of `gap` around: the whole page. */
+gvc_result render_parts_page(const render_parts *parts, size_t gap, render_image **image,
+                             gvc_error *error);
+/** A row, appended to `into`; `parts` is emptied. */
 gvc_result render_parts_move_row(render_parts *parts, size_t gap, render_parts *into,
                                  gvc_error *error);
 
@@ -44,9 +45,6 @@ typedef struct render_key {
 /** Appends a line of keys, in as many rows as `width` asks for. */
 gvc_result render_parts_keys(render_parts *parts, const render_key *key, size_t count, size_t width,
                              gvc_error *error);
-
-/** Frames the whole page. Replaces `*image`. */
-gvc_result render_margin(render_image **image, size_t margin, gvc_error *error);
 
 /** `image` at another size: every pixel the mean of what it covers. */
 gvc_result render_image_resize(const render_image *image, size_t width, size_t height,

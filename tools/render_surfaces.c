@@ -172,8 +172,7 @@ static gvc_result lay_out(surfaces *s, render_image **image, gvc_error *error) {
     if (result == GVC_OK && s->edge_count > 0) {
         result = add_keys(s, page.image[0]->width, &page, error);
     }
-    if (result == GVC_OK) result = render_parts_column(&page, RENDER_GAP, image, error);
-    if (result == GVC_OK) result = render_margin(image, RENDER_GAP, error);
+    if (result == GVC_OK) result = render_parts_page(&page, RENDER_GAP, image, error);
     render_parts_free(&page);
     return result;
 }

@@ -106,8 +106,9 @@ gvc_result render_track(const gvc_source *source, bool weld, unsigned threads,
     f->options.threads = threads;
     f->options.progress = hooks->progress;
     f->options.user = hooks->user;
-    const gvc_tracker_options tracking = {
-        .prior_weight = f->options.prior_weight, .shortest_weight = 0.1, .lambda = 0.5};
+    gvc_tracker_options tracking;
+    gvc_tracker_options_init(&tracking);
+    tracking.prior_weight = f->options.prior_weight;
     f->facts = gvc_alloc((size_t)source->frame_count, sizeof *f->facts);
     gvc_result result = f->facts ? GVC_OK : gvc_fail_memory(error);
     if (result == GVC_OK) result = gvc_tracker_create(&tracking, &f->tracker, error);

@@ -4,6 +4,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 #define STRINGIZE(x) #x
 #define VERSION_TEXT(major, minor, patch) STRINGIZE(major) "." STRINGIZE(minor) "." STRINGIZE(patch)
@@ -66,6 +67,27 @@ gvc_result gvc_fail_memory(gvc_error *error) {
 gvc_result gvc_at_frame(gvc_error *error, gvc_result result, int64_t frame) {
     if (result != GVC_OK && error && error->frame == GVC_NO_FRAME) error->frame = frame;
     return result;
+}
+
+gvc_result gvc_fail_in(gvc_error *error, gvc_result result, const char *name) {
+    if (!error || !name) return result;
+    size_t length = strlen(name), room = sizeof error->where - 1;
+    if (length <= room) {
+        memcpy(error->where, name, length + 1);
+        return result;
+    }
+    /* The end of a path says more than its beginning; do not begin inside a UTF-8 sequence. */
+    const char *tail = name + length - (room - 3);
+    while (((unsigned char)*tail & 0xc0) == 0x80) tail++;
+    snprintf(error->where, sizeof error->where, "...%s", tail);
+    return result;
+}
+
+gvc_result gvc_fail_errno(gvc_error *error, const char *action, int number, const char *name) {
+    char text[128];
+    if (strerror_r(number, text, sizeof text) != 0) snprintf(text, sizeof text, "error %d", number);
+    gvc_fail(error, GVC_ERROR_IO, "cannot %s: %s", action, text);
+    return gvc_fail_in(error, GVC_ERROR_IO, name);
 }
 
 gvc_result gvc_explain(gvc_error *error, gvc_result result) {

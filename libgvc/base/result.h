@@ -17,6 +17,12 @@ gvc_result gvc_fail_memory(gvc_error *error);
  */
 gvc_result gvc_at_frame(gvc_error *error, gvc_result result, int64_t frame);
 
+/** Puts the file name in error->where (its end, if it is long); returns error's code `result`. */
+gvc_result gvc_fail_in(gvc_error *error, gvc_result result, const char *name);
+
+/** GVC_ERROR_IO: "cannot <action>: <text of the errno value>", in file `name`. */
+gvc_result gvc_fail_errno(gvc_error *error, const char *action, int number, const char *name);
+
 /** Fills the code and message of a failed result that came without, as from a caller's callback
  * that does not explain itself; returns `result`. */
 gvc_result gvc_explain(gvc_error *error, gvc_result result);

@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include "base/disjoint.h"
 #include "base/memory.h"
 
 #define UNSEEN UINT32_MAX
@@ -62,24 +63,6 @@ static gvc_result locate_sides(const gvc_side_table *table, edge_sides *sides, g
     return GVC_OK;
 }
 
-static uint32_t find(uint32_t *parent, uint32_t i) {
-    while (parent[i] != i) {
-        parent[i] = parent[parent[i]]; /* path halving */
-        i = parent[i];
-    }
-    return i;
-}
-
-/** The smaller root stays a root, so a parent is never greater than its child. */
-static void unite(uint32_t *parent, uint32_t a, uint32_t b) {
-    a = find(parent, a);
-    b = find(parent, b);
-    if (a < b)
-        parent[b] = a;
-    else
-        parent[a] = b;
-}
-
 gvc_result gvc_glue_border(const gvc_side_table *table, uint32_t *representative,
                            gvc_error *error) {
     GVC_TRY(check_steps(table, error));
@@ -93,10 +76,10 @@ gvc_result gvc_glue_border(const gvc_side_table *table, uint32_t *representative
     for (size_t e = 0; e < table->edge_count; e++) {
         uint32_t n = table->steps[e];
         for (uint32_t j = 0; j <= n; j++)
-            unite(representative, (sides[e].forward + j) % length,
-                  (sides[e].reversed + n - j) % length);
+            gvc_disjoint_unite(representative, (sides[e].forward + j) % length,
+                               (sides[e].reversed + n - j) % length);
     }
-    /* Parents come first, so one pass flattens every tree. */
+    /* Parents come first (the least number is the root), so one pass flattens every tree. */
     for (uint32_t i = 0; i < length; i++) representative[i] = representative[representative[i]];
 
     for (size_t e = 0; e < table->edge_count; e++) {

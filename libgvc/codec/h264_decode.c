@@ -103,11 +103,53 @@ void gvc_h264_decoder_reset(gvc_h264_decoder *decoder) {
     decoder->flushed = decoder->failed = false;
 }
 
+/* What the head of a slice says (7.3.3) of the picture it is part of. */
+typedef struct slice_head {
+    uint32_t first_macroblock, frame_num;
+    bool reference;
+} slice_head;
+
+/* False if the head is not whole. `nal` is a NAL unit of at least two bytes. */
+static bool read_slice_head(const uint8_t *nal, size_t size, unsigned frame_num_bits,
+                            slice_head *head) {
+    enum { HEADER = 24 }; /* enough for three ue(v) of any legal value and frame_num */
+    uint8_t payload[HEADER];
+    gvc_nal_bits bits = {.data = payload};
+    bits.bit_count = 8 * gvc_nal_unescape(nal + 1, size - 1 < HEADER ? size - 1 : HEADER, payload);
+    head->first_macroblock = gvc_nal_ue(&bits);
+    gvc_nal_ue(&bits); /* slice_type */
+    gvc_nal_ue(&bits); /* pic_parameter_set_id */
+    head->frame_num = gvc_nal_bits_read(&bits, frame_num_bits);
+    head->reference = nal[0] & 0x60; /* nal_ref_idc */
+    return !bits.failed;
+}
+
+/* All slices of a sample belong to one picture (7.4.1.2.4): they come in the order of their
+ * macroblocks, from the first one of the picture on. `before` is NULL for the first slice. */
+static bool slice_follows(const slice_head *before, const slice_head *head) {
+    if (!before) return head->first_macroblock == 0;
+    return head->first_macroblock > before->first_macroblock &&
+           head->frame_num == before->frame_num && head->reference == before->reference;
+}
+
+static gvc_result check_slice_type(unsigned type, bool keyframe, gvc_error *error) {
+    if (type != NAL_SLICE && type != NAL_IDR) {
+        return gvc_fail(error, GVC_ERROR_CORRUPT, "NAL unit type %u does not belong in a sample",
+                        type);
+    }
+    if (keyframe != (type == NAL_IDR)) {
+        return gvc_fail(error, GVC_ERROR_CORRUPT,
+                        keyframe ? "the first picture of a group is no IDR picture"
+                                 : "an IDR picture stands inside a group");
+    }
+    return GVC_OK;
+}
+
 /* Measures the slices of an AVC sample, and with `out` copies them: parameter sets must not stand
  * there (they could change the size of the pictures); SEI and delimiters say nothing about samples
- * and are left out. */
-static gvc_result copy_slices(const uint8_t *data, size_t size, bool keyframe, uint8_t *out,
-                              size_t *copied, gvc_error *error) {
+ * and are left out. `head` gets the head of the last slice. */
+static gvc_result copy_slices(const gvc_h264_decoder *d, const uint8_t *data, size_t size,
+                              uint8_t *out, size_t *copied, slice_head *head, gvc_error *error) {
     gvc_cursor in = gvc_cursor_make(data, size);
     size_t length = 0;
     while (gvc_cursor_left(&in) > 0 && !in.failed) {
@@ -116,14 +158,15 @@ static gvc_result copy_slices(const uint8_t *data, size_t size, bool keyframe, u
         if (in.failed || !nal || nal_size < 2) break;
         unsigned type = nal[0] & 31;
         if (type == NAL_SEI || type == NAL_AUD || type == NAL_FILLER) continue;
-        if (nal[0] & 0x80 || (type != NAL_SLICE && type != NAL_IDR)) {
-            return gvc_fail(error, GVC_ERROR_CORRUPT,
-                            "NAL unit type %u does not belong in a sample", type);
+        if (nal[0] & 0x80) {
+            return gvc_fail(error, GVC_ERROR_CORRUPT, "the head of a NAL unit is damaged");
         }
-        if (keyframe != (type == NAL_IDR)) {
+        GVC_TRY(check_slice_type(type, d->sent == 0, error));
+        slice_head before = *head;
+        if (!read_slice_head(nal, nal_size, d->frame_num_bits, head) ||
+            !slice_follows(length ? &before : NULL, head)) {
             return gvc_fail(error, GVC_ERROR_CORRUPT,
-                            keyframe ? "the first picture of a group is no IDR picture"
-                                     : "an IDR picture stands inside a group");
+                            "the slices of a sample are not those of one picture");
         }
         if (out) memcpy(out + length, data + begin, 4 + nal_size);
         length += 4 + nal_size;
@@ -137,43 +180,28 @@ static gvc_result copy_slices(const uint8_t *data, size_t size, bool keyframe, u
 
 /* libavcodec makes up a picture where a reference is missing. frame_num tells (7.4.3): it is that
  * of the previous reference picture or one more. */
-static gvc_result check_frame_num(gvc_h264_decoder *d, const uint8_t *slice, size_t size,
-                                  gvc_error *error) {
-    enum { HEADER = 24 }; /* enough for three ue(v) of any legal value and frame_num */
-    uint8_t payload[HEADER];
-    gvc_nal_bits bits = {.data = payload};
-    bits.bit_count =
-        8 * gvc_nal_unescape(slice + 5, size - 5 < HEADER ? size - 5 : HEADER, payload);
-    uint32_t first_macroblock = gvc_nal_ue(&bits);
-    gvc_nal_ue(&bits); /* slice_type */
-    gvc_nal_ue(&bits); /* pic_parameter_set_id */
-    uint32_t frame_num = gvc_nal_bits_read(&bits, d->frame_num_bits);
+static gvc_result check_frame_num(gvc_h264_decoder *d, const slice_head *head, gvc_error *error) {
     uint32_t mask = (UINT32_C(1) << d->frame_num_bits) - 1;
-    bool follows = d->sent == 0 ? frame_num == 0
-                                : frame_num == d->reference_frame_num ||
-                                      frame_num == ((d->reference_frame_num + 1) & mask);
-    if (bits.failed || first_macroblock != 0 || !follows) {
-        return gvc_fail(error, GVC_ERROR_CORRUPT, "a reference picture is missing");
-    }
-    if (slice[4] & 0x60) d->reference_frame_num = frame_num; /* nal_ref_idc */
+    bool follows = d->sent == 0 ? head->frame_num == 0
+                                : head->frame_num == d->reference_frame_num ||
+                                      head->frame_num == ((d->reference_frame_num + 1) & mask);
+    if (!follows) return gvc_fail(error, GVC_ERROR_CORRUPT, "a reference picture is missing");
+    if (head->reference) d->reference_frame_num = head->frame_num;
     return GVC_OK;
 }
 
 static gvc_result send_packet(gvc_h264_decoder *d, const uint8_t *data, size_t size,
                               int64_t presentation, gvc_error *error) {
     size_t length;
-    GVC_TRY(copy_slices(data, size, d->sent == 0, NULL, &length, error));
+    slice_head head = {0};
+    GVC_TRY(copy_slices(d, data, size, NULL, &length, &head, error));
+    GVC_TRY(check_frame_num(d, &head, error));
     if (length > INT_MAX - AV_INPUT_BUFFER_PADDING_SIZE) {
         return gvc_fail(error, GVC_ERROR_LIMIT, "a picture of %zu bytes is too large", length);
     }
     int status = av_new_packet(d->packet, (int)length); /* padded with zeros */
     if (status < 0) return fail_av(d, status, error);
-    GVC_TRY(copy_slices(data, size, d->sent == 0, d->packet->data, &length, error));
-    gvc_result result = check_frame_num(d, d->packet->data, length, error);
-    if (result != GVC_OK) {
-        av_packet_unref(d->packet);
-        return result;
-    }
+    GVC_TRY(copy_slices(d, data, size, d->packet->data, &length, &head, error));
     d->packet->pts = presentation;
     if (d->sent == 0) d->packet->flags |= AV_PKT_FLAG_KEY;
     status = avcodec_send_packet(d->context, d->packet);

@@ -97,18 +97,14 @@ static void append_text(gvc_buffer *text, const char *more) {
 }
 
 /* x264 rounds quantisers to whole numbers, and a whole step is a tenth of the bytes. So a rate
- * factor between two whole ones is that share of pictures coded a step finer, scattered by the
- * golden ratio (`zones`: pictures first,last with their bits times 2^(1/6)). */
-static void append_zones(gvc_buffer *text, double share, size_t count) {
-    const char *separator = ":zones=";
-    for (size_t i = 0; i < count; i++) {
-        double place = (double)(i + 1) * 0.6180339887498949;
-        if (place - floor(place) >= share) continue;
-        char zone[64];
-        snprintf(zone, sizeof zone, "%s%zu,%zu,b=1.122462", separator, i, i);
-        append_text(text, zone);
-        separator = "/";
-    }
+ * factor between two whole ones is that share of the group coded a step finer (`zones`: pictures
+ * first,last with their bits times 2^(1/6)). */
+static void append_zone(gvc_buffer *text, double share, size_t count) {
+    size_t finer = (size_t)(share * (double)count + 0.5);
+    char zone[64];
+    if (finer == 0) return;
+    snprintf(zone, sizeof zone, ":zones=0,%zu,b=1.122462", finer - 1);
+    append_text(text, zone);
 }
 
 /* Settings as x264 reads them; NUL-terminated. */
@@ -125,7 +121,7 @@ static void format_settings(gvc_buffer *text, const gvc_h264_options *options, s
         double coarser = ceil(options->crf);
         snprintf(number, sizeof number, ":crf=%d", (int)coarser);
         append_text(text, number);
-        append_zones(text, coarser - options->crf, count);
+        append_zone(text, coarser - options->crf, count);
     }
     gvc_write_u8(text, '\0');
 }

@@ -25,11 +25,12 @@ void gvc_config_write(const gvc_config *config, gvc_buffer *buffer) {
 }
 
 static gvc_result check_picture(const gvc_config *config, gvc_error *error) {
-    /* avc1 tells width and height of the picture in 16 bits each. */
     bool width_fits = config->picture_width >= GVC_MIN_IMAGE_SIZE &&
-                      config->picture_width <= UINT16_MAX && config->picture_width % 2 == 0;
+                      config->picture_width <= GVC_MAX_PICTURE_SIDE &&
+                      config->picture_width % 2 == 0;
     bool height_fits = config->plane_height >= GVC_MIN_IMAGE_SIZE &&
-                       config->plane_height <= UINT16_MAX / 3 && config->plane_height % 2 == 0;
+                       config->plane_height <= GVC_MAX_PICTURE_SIDE / 3 &&
+                       config->plane_height % 2 == 0;
     if (!width_fits || !height_fits) {
         return gvc_fail(error, GVC_ERROR_CORRUPT, "a plane of %u x %u samples cannot be",
                         config->picture_width, config->plane_height);

@@ -8,6 +8,7 @@
 
 #define GVC_FORMAT_MAJOR 0
 #define GVC_FORMAT_MINOR 1
+#define GVC_MAX_PICTURE_SIDE 16384u /**< samples: width, and height of all three planes */
 
 /** A picture of the geometry track holds three planes, x above y above z, each `plane_height` rows
  * of `picture_width` samples. Charts lie in a plane at the rectangles their shape records name.
@@ -18,7 +19,7 @@ typedef struct gvc_config {
     uint32_t features;      /**< bits a decoder must know; 0 in this version */
     uint32_t picture_width; /**< even; multiple of 16 as written here */
     uint32_t plane_height;  /**< picture height = 3 * plane_height, even */
-    uint32_t image_size;    /**< greatest S of any chart, informative */
+    uint32_t image_size;    /**< no chart has a greater S */
     uint8_t code_bits;      /**< 10 */
     uint8_t code_shift;     /**< 6 */
     uint32_t frame_rate_num, frame_rate_den;
@@ -34,9 +35,9 @@ typedef struct gvc_config {
  *    0      u16    version_major      0
  *    2      u16    version_minor      1; a reader accepts greater ones
  *    4      u32    features           0; a reader refuses bits that it does not know
- *    8      u32    picture_width      16 .. 65534, even
- *   12      u32    plane_height       16 .. 21844, even
- *   16      u32    image_size         16 .. 2049
+ *    8      u32    picture_width      16 .. 16384, even
+ *   12      u32    plane_height       16 .. 5460, even: at most 16384 rows in all
+ *   16      u32    image_size         16 .. 2049; charts may not exceed it
  *   20      u8     code_bits          10
  *   21      u8     code_shift         6
  *   22      u32    frame_rate_num     >= 1; timescale of movie and tracks

@@ -32,17 +32,18 @@
  *     gcrc*                  CRC-32 from mfra's first byte up to its own CRC field
  *     mfro                   last
  *
- * gcrc and gcks are FullBoxes of version 0. The CRC-32 is that of gvc_crc32. Every byte of a file
- * is thus covered by a checksum or compared exactly.
+ * gcrc and gcks are FullBoxes of version 0. The CRC-32 is that of gvc_crc32. Every byte of these
+ * boxes is thus covered by a checksum or compared exactly; boxes not named here that stand at the
+ * top level behind moov are not.
  *
  * Both tracks have timescale frame_rate_num, and every sample lasts frame_rate_den. The number of
  * the frame that a sample belongs to is
  *   (decoding time + composition offset - media_time of the track's edit list, or 0) /
  *   frame_rate_den,
  * a whole number. In a fragment of n frames whose tfdt is the time of frame f, the numbers of each
- * track are f .. f + n - 1 in some order, and the first sample is a sync sample. Fragments follow
- * each other without gap from frame 0. A fragment of other tracks only (sound) is ignored; one that
- * mixes them with these is refused. */
+ * track are f .. f + n - 1 in some order, and only the first sample is a sync sample. Fragments
+ * follow each other without gap from frame 0. A fragment of other tracks only (sound) is ignored;
+ * one that mixes them with these is refused. */
 
 typedef enum gvc_track_kind {
     GVC_TRACK_GEOMETRY = 0,
@@ -55,7 +56,8 @@ typedef struct gvc_sample_entry {
     uint32_t size;
     uint32_t crc;          /**< CRC-32 of the sample's bytes as the file says */
     uint64_t presentation; /**< frame number */
-    bool sync;
+    uint32_t nth; /**< in entry n of a fragment: which of its entries holds the frame shown n-th
+                     (the inverse of `presentation`, for gvc_demux_sample_of) */
 } gvc_sample_entry;
 
 typedef struct gvc_fragment_entry {
@@ -93,6 +95,13 @@ typedef struct gvc_demux {
 gvc_result gvc_demux_open(const gvc_io *io, const gvc_read_options *options, gvc_demux *demux,
                           gvc_error *error);
 void gvc_demux_free(gvc_demux *demux);
+
+/** Index of the sample of a frame, which must be one of those of `fragment`. */
+static inline size_t gvc_demux_sample_of(const gvc_demux *demux, const gvc_fragment_entry *fragment,
+                                         gvc_track_kind kind, uint64_t frame) {
+    size_t first = fragment->first_sample[kind];
+    return first + demux->sample[kind][first + (size_t)(frame - fragment->first_frame)].nth;
+}
 
 /** Reads a sample and verifies its checksum. `buffer` is cleared first. */
 gvc_result gvc_demux_read(const gvc_demux *demux, const gvc_io *io, gvc_track_kind kind,

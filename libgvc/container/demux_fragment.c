@@ -143,16 +143,14 @@ static gvc_result read_sample(gvc_parser *parser, track_run *run, uint32_t first
     }
     GVC_TRY(gvc_box_check(&run->trun, error));
     bool sync = !(flags & GVC_FLAG_IS_NON_SYNC);
-    if (size == 0 || duration != parser->demux->config.frame_rate_den || (i == 0 && !sync)) {
+    if (size == 0 || duration != parser->demux->config.frame_rate_den || sync != (i == 0)) {
         return gvc_box_fail(&run->trun, error, GVC_ERROR_CORRUPT,
                             "sample %u: %u bytes, duration %u, %s", i, size, duration,
                             sync ? "sync" : "not sync");
     }
     GVC_TRY(read_order(parser, run, i, ticks, shown, error));
-    *entry = (gvc_sample_entry){.size = size,
-                                .crc = gvc_read_u32(&run->crc),
-                                .presentation = run->first_frame + *shown,
-                                .sync = sync};
+    *entry = (gvc_sample_entry){
+        .size = size, .crc = gvc_read_u32(&run->crc), .presentation = run->first_frame + *shown};
     return GVC_OK;
 }
 
@@ -183,6 +181,10 @@ static gvc_result read_samples(gvc_parser *parser, const gvc_box *moof, track_ru
         run->byte_count += entry.size;
         size_t place = before + (run->kind == GVC_TRACK_SHAPE ? shown : i);
         demux->sample[run->kind][place] = entry;
+    }
+    for (size_t i = before; i < before + run->count; i++) {
+        size_t shown = (size_t)(demux->sample[run->kind][i].presentation - run->first_frame);
+        demux->sample[run->kind][before + shown].nth = (uint32_t)(i - before);
     }
     return GVC_OK;
 }

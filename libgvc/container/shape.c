@@ -80,7 +80,7 @@ static bool sides_equal(const gvc_side_table *a, const gvc_side_table *b) {
 }
 
 static bool charts_equal(const gvc_chart_shape *a, const gvc_chart_shape *b) {
-    return a->component == b->component && a->x == b->x && a->y == b->y && a->genus == b->genus &&
+    return a->x == b->x && a->y == b->y && a->genus == b->genus &&
            memcmp(a->origin, b->origin, sizeof a->origin) == 0 &&
            memcmp(&a->step, &b->step, sizeof a->step) == 0 && nodes_equal(a, b) &&
            edges_equal(a, b) && sides_equal(&a->sides, &b->sides);

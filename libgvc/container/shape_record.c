@@ -42,7 +42,7 @@ static void write_body(const gvc_shape *shape, gvc_buffer *body) {
     gvc_write_varint(body, shape->chart_count);
     for (size_t i = 0; i < shape->chart_count; i++) {
         const gvc_chart_shape *chart = &shape->chart[i];
-        gvc_write_varint(body, chart->component);
+        gvc_write_varint(body, i); /* component */
         gvc_write_varint(body, chart->x);
         gvc_write_varint(body, chart->y);
         gvc_write_varint(body, chart->sides.size);

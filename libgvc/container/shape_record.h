@@ -4,13 +4,13 @@
  * The shape record: one sample of the shape track per frame. It holds the list of the frame's
  * charts (where each lies in the picture, its affine map, its cut graph and side table, its genus)
  * and the digest of what must come out. A record may say "as in the frame before" for everything
- * but the digest; the first of a fragment may not.
+ * but the digest: the first of a fragment may not, and all others of it must.
  */
 #ifndef GVC_CONTAINER_SHAPE_RECORD_H
 #define GVC_CONTAINER_SHAPE_RECORD_H
 
-#include "base/bytes.h"
 #include "chart/side_table.h"
+#include "container/config.h"
 
 /* Layout of a record. "varint" is unsigned LEB128 in its shortest form, f64 is IEEE 754 binary64,
  * big-endian; a label is a length (u8) and that many bytes of UTF-8 without control characters.
@@ -25,9 +25,9 @@
  * Body:
  *   varint      segment
  *   varint      chart_count >= 1, then per chart
- *     varint      component < chart_count
+ *     varint      component = number of the chart, from 0
  *     varint      x, y
- *     varint      size S, 16 .. 2049
+ *     varint      size S, 16 .. image_size of gvcC
  *     varint      genus
  *     f64 x 3     origin
  *     f64         step; |origin| + 65535 step does not exceed the greatest float32
@@ -56,8 +56,7 @@ typedef struct gvc_shape_edge {
 } gvc_shape_edge;
 
 typedef struct gvc_chart_shape {
-    uint32_t component; /**< charts of one component share a number; 0-based */
-    uint32_t x, y;      /**< top left sample in a plane */
+    uint32_t x, y; /**< top left sample in a plane */
     uint32_t genus;
     double origin[3], step; /**< position = origin + step * code (16-bit code) */
     size_t node_count, edge_count;
@@ -75,7 +74,8 @@ typedef struct gvc_shape {
 /** What changes with every frame. */
 typedef struct gvc_shape_frame {
     bool same;         /**< charts as in the frame before */
-    uint8_t digest[8]; /**< over the digests of all charts: see spec */
+    uint8_t digest[8]; /**< first bytes of the SHA-256 of the welded codes and faces of all charts,
+                          one chart after the other: spec 10.3 */
     char source[64];   /**< UTF-8 name of the original frame, may be empty; bytes that a label may
                           not hold are written as '?' */
 } gvc_shape_frame;
@@ -90,14 +90,14 @@ bool gvc_shape_equal(const gvc_shape *a, const gvc_shape *b);
 gvc_result gvc_shape_record_write(const gvc_shape *shape, const gvc_shape_frame *frame,
                                   gvc_buffer *buffer, gvc_error *error);
 
-/** Parses one record of untrusted bytes. `max_memory` bounds the decompressed size. If the record
- * says "same", `shape` stays empty. Checks ranges: counts against bytes left, sizes 16..2049, node
- * and feature numbers, chart rectangles inside the plane and disjoint, finite origin, step > 0 and
- * finite, node_count - edge_count == 1 - 2 * genus, and that each side table passes
- * gvc_weld_build's rules with the genus declared, and that walking the sides meets the nodes the
- * edges name. */
-gvc_result gvc_shape_record_read(const uint8_t *data, size_t size, uint32_t plane_width,
-                                 uint32_t plane_height, size_t max_memory, gvc_shape *shape,
-                                 gvc_shape_frame *frame, gvc_error *error);
+/** Parses one record of untrusted bytes of a file with this configuration. `max_memory` bounds the
+ * decompressed size (GVC_ERROR_LIMIT). If the record says "same", `shape` stays empty. Checks
+ * ranges: counts against bytes left, sizes 16..image_size, node and feature numbers, chart
+ * rectangles inside the plane and disjoint, finite origin, step > 0 and finite, node_count -
+ * edge_count == 1 - 2 * genus, and that each side table passes gvc_weld_build's rules with the
+ * genus declared, and that walking the sides meets the nodes the edges name. */
+gvc_result gvc_shape_record_read(const uint8_t *data, size_t size, const gvc_config *config,
+                                 size_t max_memory, gvc_shape *shape, gvc_shape_frame *frame,
+                                 gvc_error *error);
 
 #endif

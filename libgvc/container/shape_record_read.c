@@ -35,9 +35,9 @@ static bool map_is_usable(const gvc_chart_shape *chart) {
 }
 
 /** The fields before the graph. */
-static gvc_result read_placement(gvc_cursor *cursor, gvc_chart_shape *chart, size_t chart_count,
+static gvc_result read_placement(gvc_cursor *cursor, gvc_chart_shape *chart, uint32_t image_size,
                                  size_t index, gvc_error *error) {
-    chart->component = read_varint32(cursor);
+    uint32_t component = read_varint32(cursor);
     chart->x = read_varint32(cursor);
     chart->y = read_varint32(cursor);
     chart->sides.size = read_varint32(cursor);
@@ -45,9 +45,10 @@ static gvc_result read_placement(gvc_cursor *cursor, gvc_chart_shape *chart, siz
     for (unsigned k = 0; k < 3; k++) chart->origin[k] = gvc_read_f64(cursor);
     chart->step = gvc_read_f64(cursor);
     if (cursor->failed) return fail_chart(index, "the record ends within it", error);
-    if (chart->component >= chart_count) return fail_chart(index, "its component is none", error);
-    if (chart->sides.size < GVC_MIN_IMAGE_SIZE || chart->sides.size > GVC_MAX_IMAGE_SIZE) {
-        return fail_chart(index, "its size is not 16 to 2049", error);
+    if (component != index) return fail_chart(index, "its component is not its number", error);
+    if (chart->sides.size < GVC_MIN_IMAGE_SIZE || chart->sides.size > image_size) {
+        return gvc_fail(error, GVC_ERROR_CORRUPT, "chart %zu: its size %u is not %u to %u", index,
+                        chart->sides.size, GVC_MIN_IMAGE_SIZE, image_size);
     }
     if (!map_is_usable(chart)) return fail_chart(index, "its map to space is not finite", error);
     return GVC_OK;
@@ -116,15 +117,16 @@ static gvc_result read_sides(gvc_cursor *cursor, gvc_side_table *sides, size_t i
     return GVC_OK;
 }
 
-static gvc_result read_chart(gvc_cursor *cursor, gvc_chart_shape *chart, size_t chart_count,
+static gvc_result read_chart(gvc_cursor *cursor, gvc_chart_shape *chart, uint32_t image_size,
                              size_t index, gvc_error *error) {
-    GVC_TRY(read_placement(cursor, chart, chart_count, index, error));
+    GVC_TRY(read_placement(cursor, chart, image_size, index, error));
     GVC_TRY(make_room(cursor, chart, index, error));
     GVC_TRY(read_graph(cursor, chart, index, error));
     return read_sides(cursor, &chart->sides, index, error);
 }
 
-static gvc_result read_body(const uint8_t *data, size_t size, gvc_shape *shape, gvc_error *error) {
+static gvc_result read_body(const uint8_t *data, size_t size, uint32_t image_size, gvc_shape *shape,
+                            gvc_error *error) {
     gvc_cursor cursor = gvc_cursor_make(data, size);
     shape->segment = gvc_read_varint(&cursor);
     uint64_t chart_count = gvc_read_varint(&cursor);
@@ -137,7 +139,7 @@ static gvc_result read_body(const uint8_t *data, size_t size, gvc_shape *shape, 
     if (!shape->chart) return gvc_fail_memory(error);
     shape->chart_count = (size_t)chart_count;
     for (size_t i = 0; i < shape->chart_count; i++) {
-        GVC_TRY(read_chart(&cursor, &shape->chart[i], shape->chart_count, i, error));
+        GVC_TRY(read_chart(&cursor, &shape->chart[i], image_size, i, error));
     }
     if (gvc_cursor_left(&cursor)) {
         return gvc_fail(error, GVC_ERROR_CORRUPT, "%zu bytes are left after the last chart",
@@ -146,13 +148,25 @@ static gvc_result read_body(const uint8_t *data, size_t size, gvc_shape *shape, 
     return GVC_OK;
 }
 
-/** Expands the zstd frame that fills [data, data + size) into `*body`, which the caller frees. */
-static gvc_result expand_body(const uint8_t *data, size_t size, size_t max_memory, uint8_t **body,
-                              size_t *body_size, gvc_error *error) {
+/** No body is longer (spec 13.3): two varints of at most 10 bytes, and per chart at most 47 + 31 S
+ * bytes, which is less than three for each of its S * S samples; charts do not overlap. */
+static uint64_t greatest_body(const gvc_config *config) {
+    return 20 + 3 * (uint64_t)config->picture_width * config->plane_height;
+}
+
+/** Expands the zstd frame that fills [data, data + size) into `*body`, which the caller frees.
+ * Nothing is allocated for a size that no body can have. */
+static gvc_result expand_body(const uint8_t *data, size_t size, const gvc_config *config,
+                              size_t max_memory, uint8_t **body, size_t *body_size,
+                              gvc_error *error) {
     unsigned long long expanded = ZSTD_getFrameContentSize(data, size);
     if (expanded == ZSTD_CONTENTSIZE_UNKNOWN || expanded == ZSTD_CONTENTSIZE_ERROR ||
         ZSTD_findFrameCompressedSize(data, size) != size) {
         return gvc_fail(error, GVC_ERROR_CORRUPT, "the body is not one zstd frame of stated size");
+    }
+    if (expanded > greatest_body(config)) {
+        return gvc_fail(error, GVC_ERROR_CORRUPT, "a body of %llu bytes for planes of %u x %u",
+                        expanded, config->picture_width, config->plane_height);
     }
     if (expanded > max_memory) {
         return gvc_fail(error, GVC_ERROR_LIMIT, "a body of %llu bytes; the limit is %zu", expanded,
@@ -196,9 +210,9 @@ static gvc_result read_head(gvc_cursor *cursor, gvc_shape_frame *frame, unsigned
     return GVC_OK;
 }
 
-gvc_result gvc_shape_record_read(const uint8_t *data, size_t size, uint32_t plane_width,
-                                 uint32_t plane_height, size_t max_memory, gvc_shape *shape,
-                                 gvc_shape_frame *frame, gvc_error *error) {
+gvc_result gvc_shape_record_read(const uint8_t *data, size_t size, const gvc_config *config,
+                                 size_t max_memory, gvc_shape *shape, gvc_shape_frame *frame,
+                                 gvc_error *error) {
     *shape = (gvc_shape){0};
     *frame = (gvc_shape_frame){0};
     gvc_cursor cursor = gvc_cursor_make(data, size);
@@ -210,11 +224,11 @@ gvc_result gvc_shape_record_read(const uint8_t *data, size_t size, uint32_t plan
     size_t body_size = gvc_cursor_left(&cursor);
     const uint8_t *body = gvc_read_bytes(&cursor, body_size);
     if (flags & GVC_RECORD_ZSTD) {
-        GVC_CHECK(expand_body(body, body_size, max_memory, &expanded, &body_size, error));
+        GVC_CHECK(expand_body(body, body_size, config, max_memory, &expanded, &body_size, error));
         body = expanded;
     }
-    GVC_CHECK(read_body(body, body_size, shape, error));
-    GVC_CHECK(gvc_shape_check(shape, plane_width, plane_height, error));
+    GVC_CHECK(read_body(body, body_size, config->image_size, shape, error));
+    GVC_CHECK(gvc_shape_check(shape, config->picture_width, config->plane_height, error));
 cleanup:
     free(expanded);
     if (result != GVC_OK) gvc_shape_free(shape);

@@ -5,6 +5,7 @@
 #include "base/digest.h"
 #include "base/memory.h"
 #include "container/box.h"
+#include "container/shape_layout.h"
 #include "container/writer_moov.h"
 
 #include <stdlib.h>
@@ -119,6 +120,23 @@ static gvc_result check_order(const gvc_writer *writer, uint32_t track, const gv
     return result;
 }
 
+/** Only the first samples are sync samples, and only the first frame has a whole shape record.
+ * Sizes must have been checked. */
+static gvc_result check_first(const gvc_fragment *fragment, gvc_error *error) {
+    for (size_t i = 0; i < fragment->frame_count; i++) {
+        const gvc_sample *shape = &fragment->shape[i];
+        bool first = i == 0, whole = !(shape->data[0] & GVC_RECORD_SAME);
+        bool first_shown = (int64_t)i + shape->composition_offset == 0;
+        if (fragment->geometry[i].sync != first || shape->sync != first || whole != first_shown) {
+            return gvc_fail(error, GVC_ERROR_ARGUMENT,
+                            "sample %zu: a fragment has one sync sample in each track and one "
+                            "whole shape record, the first",
+                            i);
+        }
+    }
+    return GVC_OK;
+}
+
 static gvc_result check_fragment(const gvc_writer *writer, const gvc_fragment *fragment,
                                  uint64_t *shape_bytes, uint64_t *geometry_bytes,
                                  gvc_error *error) {
@@ -136,22 +154,20 @@ static gvc_result check_fragment(const gvc_writer *writer, const gvc_fragment *f
         return gvc_fail(error, GVC_ERROR_LIMIT, "frame %llu does not fit in time",
                         (unsigned long long)fragment->first_frame);
     }
-    if (!fragment->geometry[0].sync || !fragment->shape[0].sync) {
-        return gvc_fail(error, GVC_ERROR_ARGUMENT, "a fragment must begin with sync samples");
-    }
     GVC_TRY(sum_sizes(fragment->shape, count, shape_bytes, error));
     GVC_TRY(sum_sizes(fragment->geometry, count, geometry_bytes, error));
+    GVC_TRY(check_first(fragment, error));
     GVC_TRY(check_order(writer, GVC_SHAPE_TRACK, fragment->shape, count, error));
     return check_order(writer, GVC_GEOMETRY_TRACK, fragment->geometry, count, error);
 }
 
-/** Flags of trun, as few fields per sample as tell all. */
+/** Flags of trun, as few fields per sample as tell all. Flags of samples but the first are those of
+ * trex. */
 static uint32_t run_flags(const gvc_writer *writer, uint32_t track, const gvc_sample *sample,
                           size_t count) {
     uint32_t flags = GVC_TRUN_DATA_OFFSET | GVC_TRUN_FIRST_FLAGS | GVC_TRUN_SIZE;
     for (size_t i = 0; i < count; i++) {
         if (offset_ticks(writer, track, &sample[i])) flags |= GVC_TRUN_COMPOSITION;
-        if (i && sample[i].sync) flags = (flags & ~GVC_TRUN_FIRST_FLAGS) | GVC_TRUN_FLAGS;
     }
     return flags;
 }
@@ -164,12 +180,9 @@ static size_t write_trun(const gvc_writer *writer, uint32_t track, const gvc_sam
     gvc_write_u32(buffer, (uint32_t)count);
     size_t data_offset = buffer->size;
     gvc_write_u32(buffer, 0);
-    if (flags & GVC_TRUN_FIRST_FLAGS) gvc_write_u32(buffer, GVC_FLAGS_SYNC);
+    gvc_write_u32(buffer, GVC_FLAGS_SYNC);
     for (size_t i = 0; i < count; i++) {
         gvc_write_u32(buffer, (uint32_t)sample[i].size);
-        if (flags & GVC_TRUN_FLAGS) {
-            gvc_write_u32(buffer, sample[i].sync ? GVC_FLAGS_SYNC : GVC_FLAGS_NON_SYNC);
-        }
         if (flags & GVC_TRUN_COMPOSITION) {
             int64_t ticks = offset_ticks(writer, track, &sample[i]);
             gvc_write_u32(buffer, (uint32_t)(int32_t)ticks);

@@ -17,7 +17,7 @@ typedef struct gvc_sample {
     size_t size;
     int32_t composition_offset; /**< presentation minus decoding time, in frames (version 1 trun,
                                    signed) */
-    bool sync;
+    bool sync;                  /**< true for the first of a fragment, and only for it */
 } gvc_sample;
 
 /** One fragment: a group of frames. Both tracks have one sample per frame. */
@@ -26,7 +26,8 @@ typedef struct gvc_fragment {
                              other without gap from 0 */
     size_t frame_count;
     const gvc_sample *geometry; /**< in decoding order */
-    const gvc_sample *shape;    /**< in presentation order */
+    const gvc_sample *shape; /**< in presentation order; the first record is whole, the others say
+                                "same" */
 } gvc_fragment;
 
 /** Writes ftyp and moov at once. `avc_config` is the content of avcC. GVC_ERROR_ARGUMENT for a
@@ -34,9 +35,10 @@ typedef struct gvc_fragment {
 gvc_result gvc_writer_create(const gvc_sink *sink, const gvc_config *config,
                              const uint8_t *avc_config, size_t avc_config_size, gvc_writer **writer,
                              gvc_error *error);
-/** Writes moof and mdat. GVC_ERROR_ARGUMENT, before anything is written, if the first samples are
- * not sync, a sample is empty, or the composition offsets do not permute the frames. After the sink
- * failed nothing more can be written. */
+/** Writes moof and mdat. GVC_ERROR_ARGUMENT, before anything is written, if other than the first
+ * samples are sync samples, other than the first shape record is whole, a sample is empty, or the
+ * composition offsets do not permute the frames. After the sink failed nothing more can be written.
+ */
 gvc_result gvc_writer_fragment(gvc_writer *writer, const gvc_fragment *fragment, gvc_error *error);
 /** Writes the index (mfra). GVC_ERROR_ARGUMENT if frames declared are missing. */
 gvc_result gvc_writer_finish(gvc_writer *writer, gvc_error *error);

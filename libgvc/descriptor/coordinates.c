@@ -71,8 +71,19 @@ gvc_result gvc_coordinates_measure(gvc_halfedges *mesh, const gvc_coordinates *c
 void gvc_coordinates_get(const gvc_coordinates *coordinates, const double position[3],
                          const double *attribute, double *point) {
     memcpy(point, attribute + coordinates->first, coordinates->count * sizeof *point);
+    gvc_coordinates_place(coordinates, position, point);
+}
+
+void gvc_coordinates_place(const gvc_coordinates *coordinates, const double position[3],
+                           double *point) {
     for (size_t k = 0; k < 3; k++)
         point[coordinates->count + k] = position_weight * position[k] / coordinates->diagonal;
+}
+
+void gvc_coordinates_position(const gvc_coordinates *coordinates, const double *point,
+                              double position[3]) {
+    for (size_t k = 0; k < 3; k++)
+        position[k] = point[coordinates->count + k] * coordinates->diagonal / position_weight;
 }
 
 void gvc_coordinates_of_vertex(const gvc_halfedges *mesh, const gvc_coordinates *coordinates,

@@ -30,7 +30,12 @@ gvc_result gvc_coordinates_measure(gvc_halfedges *mesh, const gvc_coordinates *c
 /** The coordinates of a point of the mesh with these attributes; `point` has room for dimension. */
 void gvc_coordinates_get(const gvc_coordinates *coordinates, const double position[3],
                          const double *attribute, double *point);
-/** The same for a vertex. */
+/** The position that coordinates hold, in the unit of the mesh, and its change. */
+void gvc_coordinates_position(const gvc_coordinates *coordinates, const double *point,
+                              double position[3]);
+void gvc_coordinates_place(const gvc_coordinates *coordinates, const double position[3],
+                           double *point);
+/** The coordinates of a vertex. */
 void gvc_coordinates_of_vertex(const gvc_halfedges *mesh, const gvc_coordinates *coordinates,
                                uint32_t vertex, double *point);
 

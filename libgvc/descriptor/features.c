@@ -35,6 +35,10 @@ static void normalise(gvc_features *features, size_t count) {
     for (size_t v = 0; v < count; v++) mu[v] = range > 0 ? (mu[v] - low) / range : 0;
 }
 
+void gvc_features_options_init(gvc_features_options *options) {
+    *options = (gvc_features_options){.integral_samples = 60, .candidate_persistence = 0.01};
+}
+
 gvc_result gvc_features_find(const gvc_halfedges *mesh, const gvc_features_options *options,
                              gvc_features *features, gvc_error *error) {
     *features = (gvc_features){0};

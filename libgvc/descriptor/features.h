@@ -25,6 +25,9 @@ typedef struct gvc_features_options {
     double candidate_persistence; /**< candidates below this are not listed; default 0.01 */
 } gvc_features_options;
 
+/** The defaults. */
+void gvc_features_options_init(gvc_features_options *options);
+
 /** The surface must be in one piece (GVC_ERROR_MESH otherwise). Free with gvc_features_free; empty
  *  on failure. */
 gvc_result gvc_features_find(const gvc_halfedges *mesh, const gvc_features_options *options,

@@ -11,6 +11,7 @@
 #include "descriptor/handles.h"
 #include "descriptor/link.h"
 #include "descriptor/match.h"
+#include "descriptor/rigid.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -20,6 +21,12 @@
 static const double match_gate = 0.2;
 /* nor if its normalised geodesic distance to another one changed by more than this. */
 static const double shape_gate = 0.25;
+
+/* The surface round the root whose motion is followed: so much of the greatest geodesic distance,
+ */
+static const double patch_radius = 0.18;
+/* and no further than this from one frame to the next, in diagonals. */
+static const double patch_gate = 0.06;
 
 struct gvc_tracker {
     gvc_tracker_options options;
@@ -35,12 +42,18 @@ struct gvc_tracker {
     double *tip_point;  /* their coordinates */
     size_t base_count;  /* nodes of the initial graph: the root alone if there are no handles */
     uint32_t root;      /* which of them is the root */
-    double *base_point; /* their coordinates */
+    double *base_point; /* their coordinates: distances as in the first frame, so that nothing
+                           drifts along with small errors; positions as last seen */
+    gvc_patch patch;    /* the surface round the root as last seen */
     size_t link_count;
     gvc_link *link;
     size_t side_count; /* the border of the opened surface */
     gvc_border_side *side;
 };
+
+void gvc_tracker_options_init(gvc_tracker_options *options) {
+    *options = (gvc_tracker_options){.prior_weight = 1, .shortest_weight = 0.1, .lambda = 0.5};
+}
 
 gvc_result gvc_tracker_create(const gvc_tracker_options *options, gvc_tracker **tracker,
                               gvc_error *error) {
@@ -57,6 +70,7 @@ static void forget(gvc_tracker *t) {
     free(t->tip);
     free(t->tip_point);
     free(t->base_point);
+    gvc_patch_free(&t->patch);
     free(t->link);
     free(t->side);
     *t = (gvc_tracker){.options = t->options, .finder = t->finder};
@@ -75,6 +89,7 @@ typedef struct workspace {
     gvc_routing routing;
     uint32_t *tip; /* vertices */
     uint32_t *base;
+    gvc_rigid motion; /* of the surface round the root since the frame before */
 } workspace;
 
 static void workspace_free(workspace *w) {
@@ -99,18 +114,28 @@ static gvc_result attach_coordinates(workspace *w, const gvc_tracker *t,
     return GVC_OK;
 }
 
-/* Takes down where tips and initial nodes are. */
-static void remember_points(gvc_tracker *t, const workspace *w) {
+/* Takes down where tips and initial nodes are, and the surface round the root. */
+static gvc_result remember_points(gvc_tracker *t, const workspace *w, gvc_error *error) {
     const gvc_routing *r = &w->routing;
-    size_t n = r->coordinates.dimension;
+    const gvc_coordinates *c = &r->coordinates;
+    size_t n = c->dimension, channels = r->mesh->attribute_count;
     for (size_t i = 0; i < t->tip_count; i++) {
-        gvc_coordinates_of_vertex(r->mesh, &r->coordinates, w->tip[i], t->tip_point + i * n);
+        gvc_coordinates_of_vertex(r->mesh, c, w->tip[i], t->tip_point + i * n);
         t->tip[i].vertex = w->tip[i];
         memcpy(t->tip[i].position, r->mesh->position + 3 * (size_t)w->tip[i],
                sizeof t->tip[i].position);
     }
-    for (size_t i = 0; i < t->base_count; i++)
-        gvc_coordinates_of_vertex(r->mesh, &r->coordinates, w->base[i], t->base_point + i * n);
+    for (size_t i = 0; i < t->base_count; i++) {
+        double *known = t->base_point + i * n;
+        if (!t->started) {
+            gvc_coordinates_of_vertex(r->mesh, c, w->base[i], known);
+        } else {
+            gvc_coordinates_place(c, r->mesh->position + 3 * (size_t)w->base[i], known);
+        }
+    }
+    gvc_patch_free(&t->patch);
+    return gvc_patch_take(r->mesh, r->mesh->attribute + c->first + t->tip_count, channels,
+                          patch_radius, &t->patch, error);
 }
 
 /* Walks the border of the opened surface; `*disk` tells whether that is one disk. `*side` is freed
@@ -269,7 +294,7 @@ gvc_result gvc_tracker_start(gvc_tracker *t, const gvc_features *features, size_
                      "the cut graph has %zu nodes, %zu edges and a border of %zu sides, which is "
                      "no disk on a surface of genus %zu",
                      graph->node_count, graph->edge_count, t->side_count, t->genus));
-    remember_points(t, &w);
+    GVC_CHECK(remember_points(t, &w, error));
     t->started = true;
 cleanup:
     workspace_free(&w);
@@ -318,20 +343,31 @@ static bool same_shape(const gvc_tracker *t, const workspace *w) {
     return true;
 }
 
-/* Finds the nodes of the initial graph by geodesic consistency, the root first. */
+/* Moves the position part of a point's coordinates. */
+static void move_point(const gvc_coordinates *c, const gvc_rigid *motion, double *point) {
+    double position[3];
+    gvc_coordinates_position(c, point, position);
+    gvc_rigid_apply(motion, position, position);
+    gvc_coordinates_place(c, position, point);
+}
+
+/* Finds the nodes of the initial graph by geodesic consistency, the root first: near where the
+ * motion of the surface round the root takes them. */
 static gvc_result find_base(gvc_tracker *t, workspace *w, bool *kept, gvc_error *error) {
     gvc_routing *r = &w->routing;
     size_t n = r->coordinates.dimension, taken_count = 0;
     uint32_t *taken = gvc_alloc(t->tip_count + t->base_count, sizeof *taken);
-    gvc_result result = taken ? GVC_OK : gvc_fail_memory(error);
+    double *wanted = gvc_alloc(n, sizeof *wanted);
+    gvc_result result = taken && wanted ? GVC_OK : gvc_fail_memory(error);
     for (size_t i = 0; result == GVC_OK && i < t->tip_count; i++) taken[taken_count++] = w->tip[i];
     for (size_t i = 0; i < t->base_count; i++) {
         /* the root, then the others in their order */
         size_t node = i == 0 ? t->root : i <= t->root ? i - 1 : i;
-        if (result == GVC_OK)
-            result = gvc_consistent_vertex(r->mesh, &r->coordinates, t->tip_count + (i > 0),
-                                           t->base_point + node * n, taken, taken_count,
-                                           &w->base[node], error);
+        if (result != GVC_OK) break;
+        memcpy(wanted, t->base_point + node * n, n * sizeof *wanted);
+        if (wanted[t->tip_count] <= patch_radius) move_point(&r->coordinates, &w->motion, wanted);
+        result = gvc_consistent_vertex(r->mesh, &r->coordinates, t->tip_count + (i > 0), wanted,
+                                       taken, taken_count, &w->base[node], error);
         if (result != GVC_OK) break;
         *kept = w->base[node] != GVC_NONE;
         if (!*kept) break;
@@ -341,49 +377,54 @@ static gvc_result find_base(gvc_tracker *t, workspace *w, bool *kept, gvc_error 
                                              1, error);
     }
     free(taken);
+    free(wanted);
     return result;
 }
 
-/* The features' positions in the coordinates of the frame before and of this one. */
+/* How the features moved, in coordinates: the tips by themselves, the root with the surface round
+ * it. */
 typedef struct motion {
-    size_t count;
-    double *before, *now; /* 3 per feature */
+    const gvc_coordinates *coordinates;
+    const gvc_rigid *root;
+    double *shift; /* 3 per tip */
 } motion;
 
 /* Moves the position part of a point's coordinates as the features near it have moved. */
 static void follow(const void *context, double *point) {
     const motion *m = context;
-    double sum[3] = {0}, total = 0;
-    for (size_t i = 0; i < m->count; i++) {
+    const gvc_coordinates *c = m->coordinates;
+    double sum[3] = {0}, total = 0, position[3], moved[3];
+    gvc_coordinates_position(c, point, position);
+    gvc_rigid_apply(m->root, position, moved);
+    for (size_t i = 0; i < c->count; i++) {
         double g = point[i] + 0.02, weight = 1 / (g * g);
         total += weight;
-        for (size_t k = 0; k < 3; k++)
-            sum[k] += weight * (m->now[3 * i + k] - m->before[3 * i + k]);
+        for (size_t k = 0; k < 3; k++) {
+            bool root = i + 1 == c->count;
+            sum[k] += weight * (root ? moved[k] - position[k] : m->shift[3 * i + k]);
+        }
     }
-    for (size_t k = 0; k < 3; k++) point[m->count + k] += sum[k] / total;
+    for (size_t k = 0; k < 3; k++) position[k] += sum[k] / total;
+    gvc_coordinates_place(c, position, point);
 }
 
 /* Lets what is known of the frame before follow the features: what is near a tip that moved is
  * looked for where it must have gone. */
 static gvc_result follow_features(gvc_tracker *t, const workspace *w, gvc_error *error) {
     const gvc_coordinates *c = &w->routing.coordinates;
-    double *all = gvc_alloc(6 * c->count + c->dimension, sizeof *all);
-    if (!all) return gvc_fail_memory(error);
-    motion m = {c->count, all, all + 3 * c->count};
-    double *point = all + 6 * c->count;
-    for (size_t i = 0; i < c->count; i++) {
-        const double *before = i < t->tip_count ? t->tip_point + i * c->dimension
-                                                : t->base_point + t->root * c->dimension;
-        uint32_t vertex = i < t->tip_count ? w->tip[i] : w->base[t->root];
-        gvc_coordinates_of_vertex(w->routing.mesh, c, vertex, point);
-        memcpy(m.before + 3 * i, before + c->count, 3 * sizeof *before);
-        memcpy(m.now + 3 * i, point + c->count, 3 * sizeof *point);
+    motion m = {c, &w->motion, gvc_alloc(3 * t->tip_count, sizeof *m.shift)};
+    if (!m.shift) return gvc_fail_memory(error);
+    for (size_t i = 0; i < t->tip_count; i++) {
+        const double *now = w->routing.mesh->position + 3 * (size_t)w->tip[i];
+        double before[3];
+        gvc_coordinates_position(c, t->tip_point + i * c->dimension, before);
+        for (size_t k = 0; k < 3; k++) m.shift[3 * i + k] = now[k] - before[k];
     }
     for (size_t i = 0; i < t->link_count; i++) {
         gvc_prior_move(&t->link[i].prior, follow, &m);
         follow(&m, t->link[i].junction);
     }
-    free(all);
+    free(m.shift);
     return GVC_OK;
 }
 
@@ -422,6 +463,8 @@ static gvc_result allocate_workspace(workspace *w, const gvc_tracker *t, gvc_err
 static gvc_result track(gvc_tracker *t, const gvc_features *features, workspace *w, bool *kept,
                         gvc_error *error) {
     GVC_TRY(allocate_workspace(w, t, error));
+    GVC_TRY(
+        gvc_patch_follow(&t->patch, w->routing.mesh, patch_gate * t->diagonal, &w->motion, error));
     GVC_TRY(attach_coordinates(w, t, features, error));
     GVC_TRY(find_tips(t, features, w, kept, error));
     if (!*kept || !(*kept = same_shape(t, w))) return GVC_OK;
@@ -431,8 +474,7 @@ static gvc_result track(gvc_tracker *t, const gvc_features *features, workspace 
     GVC_TRY(place_links(t, w, kept, error));
     if (!*kept) return GVC_OK;
     GVC_TRY(check_border(t, w, kept, error));
-    if (*kept) remember_points(t, w);
-    return GVC_OK;
+    return *kept ? remember_points(t, w, error) : GVC_OK;
 }
 
 gvc_result gvc_tracker_next(gvc_tracker *t, const gvc_features *features, gvc_halfedges *mesh,

@@ -12,6 +12,9 @@ typedef struct gvc_tracker_options {
     double lambda;          /**< Eq. 10; 0.5; 0 cancels the prior on nodes */
 } gvc_tracker_options;
 
+/** The values named there. */
+void gvc_tracker_options_init(gvc_tracker_options *options);
+
 typedef struct gvc_tracker gvc_tracker; /**< what is remembered of the previous frame */
 
 gvc_result gvc_tracker_create(const gvc_tracker_options *options, gvc_tracker **tracker,

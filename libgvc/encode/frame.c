@@ -12,7 +12,8 @@
 
 gvc_result gvc_frame_analyse(gvc_frame_work *work, const gvc_source *source, bool weld,
                              gvc_error *error) {
-    const gvc_features_options options = {.integral_samples = 60, .candidate_persistence = 0.01};
+    gvc_features_options options;
+    gvc_features_options_init(&options);
     gvc_result result = gvc_load_frame(source, work->number, weld, &work->mesh, NULL, error);
     if (result == GVC_OK) {
         work->diagonal = gvc_mesh_diagonal(work->mesh);

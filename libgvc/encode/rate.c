@@ -18,6 +18,7 @@
 #define CRF_TOLERANCE 0.1 /* about 1 % of the bytes */
 #define LOAD_TOLERANCE 0.01
 #define CONFIRMATIONS 4
+#define SETTLED_EXCESS 0.05 /* over the finest quantiser's error, where none holds */
 
 /* ------------------------------------------------------------------------------------- measure */
 
@@ -185,12 +186,23 @@ static gvc_result find_and_confirm(search *s, double *crf, gvc_error *error) {
     return GVC_OK;
 }
 
+/* The error asked for is out of reach, because sampling alone exceeds it: the finest quantiser
+ * would spend a multiple of the bytes on next to nothing. */
+static gvc_result settle_for_less(search *s, double *crf, gvc_error *error) {
+    if (s->coded_crf != CRF_LEAST) GVC_TRY(evaluate(s, CRF_LEAST, error));
+    GVC_TRY(measure(s, probe_count(s), error));
+    s->limit = s->load * (1 + SETTLED_EXCESS);
+    GVC_TRY(find_crf(s, 0, CRF_STEP, crf, error));
+    return measure(s, s->group->count, error);
+}
+
 gvc_result gvc_rate_code(gvc_group *group, const gvc_source *source,
                          const gvc_encode_options *options, double *crf, double *rms, bool *held,
                          gvc_error *error) {
     search s = {.group = group, .source = source, .options = options, .coded_crf = NAN, .limit = 1};
     if (isnan(options->crf)) {
         GVC_TRY(find_and_confirm(&s, crf, error));
+        if (s.load > 1) GVC_TRY(settle_for_less(&s, crf, error));
     } else {
         *crf = options->crf;
         GVC_TRY(gvc_group_code(group, options, *crf, error));

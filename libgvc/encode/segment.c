@@ -121,10 +121,22 @@ gvc_result gvc_frame_rms(const gvc_mesh *original, const gvc_mesh *rebuilt, size
     return result;
 }
 
+/* An error without bound where no chart without folds is found: another try may do better. */
+static gvc_result allow_folds(gvc_result result, const gvc_error *trouble, double *rms,
+                              gvc_error *error) {
+    if (result == GVC_OK) return GVC_OK;
+    if (result != GVC_ERROR_MESH) {
+        if (error) *error = *trouble;
+        return result;
+    }
+    *rms = INFINITY;
+    return GVC_OK;
+}
+
 /* Error of the frame sampled by `sides`, at 16-bit codes. */
-static gvc_result sampling_rms(const gvc_segment *segment, const gvc_frame_work *work,
-                               const gvc_side_table *sides, bool fit, size_t samples, double *rms,
-                               gvc_error *error) {
+static gvc_result measure_sampling(const gvc_segment *segment, const gvc_frame_work *work,
+                                   const gvc_side_table *sides, bool fit, size_t samples,
+                                   double *rms, gvc_error *error) {
     size_t count = 3 * (size_t)sides->size * sides->size;
     gvc_image_options options = segment->image_options;
     options.fit = fit;
@@ -150,6 +162,15 @@ static gvc_result sampling_rms(const gvc_segment *segment, const gvc_frame_work 
     free(image);
     free(plane);
     return result;
+}
+
+static gvc_result sampling_rms(const gvc_segment *segment, const gvc_frame_work *work,
+                               const gvc_side_table *sides, bool fit, size_t samples, double *rms,
+                               gvc_error *error) {
+    gvc_error trouble;
+    gvc_error_init(&trouble);
+    gvc_result result = measure_sampling(segment, work, sides, fit, samples, rms, &trouble);
+    return allow_folds(result, &trouble, rms, error);
 }
 
 /* Resizing rounds, so the start may no longer be allowed: the nearest that is takes its place. */
@@ -186,10 +207,11 @@ static gvc_result resize_layout(const gvc_side_table *sides, const gvc_cut_graph
 gvc_result gvc_segment_sampling_rms(const gvc_segment *segment, const gvc_frame_work *work,
                                     uint32_t size, size_t samples, double *rms, gvc_error *error) {
     gvc_side_table sides = {0};
-    gvc_result result = resize_layout(&segment->sides, &work->graph, size, &sides, error);
-    if (result == GVC_OK) {
-        result = sampling_rms(segment, work, &sides, true, samples, rms, error);
-    }
+    gvc_error trouble;
+    gvc_error_init(&trouble);
+    gvc_result result = resize_layout(&segment->sides, &work->graph, size, &sides, &trouble);
+    if (result != GVC_OK) return allow_folds(result, &trouble, rms, error);
+    result = sampling_rms(segment, work, &sides, true, samples, rms, error);
     gvc_side_table_free(&sides);
     return result;
 }
@@ -235,6 +257,10 @@ static gvc_result choose_start(gvc_segment *segment, const gvc_frame_work *work,
     size_t best = 0;
     for (size_t i = 1; i < kept; i++) {
         if (context.rms[i] < context.rms[best]) best = i;
+    }
+    if (result == GVC_OK && !isfinite(context.rms[best])) {
+        result = gvc_fail(error, GVC_ERROR_MESH,
+                          "the surface cut open folds over itself in every chart tried");
     }
     if (result == GVC_OK) sides->start = context.start[best];
     return result;

@@ -38,7 +38,8 @@ gvc_result gvc_segment_resize(gvc_segment *segment, const gvc_frame_work *work, 
                               gvc_error *error);
 
 /** RMS error (fraction of the diagonal) of a frame sampled with the segment's layout at another
- * image size, without coding. */
+ * image size, without coding; INFINITY if there is no chart of
+ * that size without folds. */
 gvc_result gvc_segment_sampling_rms(const gvc_segment *segment, const gvc_frame_work *work,
                                     uint32_t size, size_t samples, double *rms, gvc_error *error);
 

@@ -6,21 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/** Marks the later faces of every group with the same vertices in `drop`. */
-static gvc_result mark_duplicates(const gvc_mesh *mesh, bool *drop, gvc_error *error) {
-    uint32_t *order;
-    GVC_TRY(gvc_order_faces(mesh, &order, error));
-    uint32_t last[3] = {0, 0, 0};
-    for (size_t i = 0; i < mesh->face_count; i++) {
-        uint32_t key[3];
-        gvc_face_key(mesh, order[i], key);
-        drop[order[i]] |= i > 0 && memcmp(key, last, sizeof key) == 0;
-        memcpy(last, key, sizeof last);
-    }
-    free(order);
-    return GVC_OK;
-}
-
 /** Copies the faces that are not to be dropped, and the vertices that those use, both in order.
  *  `number` has an entry per vertex and is overwritten. */
 static gvc_result copy_kept(const gvc_mesh *mesh, const bool *drop, uint32_t *number,
@@ -53,7 +38,7 @@ static gvc_result drop_useless(const gvc_mesh *mesh, gvc_mesh **kept, gvc_error 
     bool *drop = gvc_alloc(mesh->face_count, sizeof *drop);
     uint32_t *number = gvc_alloc(mesh->vertex_count, sizeof *number);
     gvc_result result = drop && number ? GVC_OK : gvc_fail_memory(error);
-    if (result == GVC_OK) result = mark_duplicates(mesh, drop, error);
+    if (result == GVC_OK) result = gvc_mark_repeated_faces(mesh, drop, error);
     for (size_t f = 0; result == GVC_OK && f < mesh->face_count; f++)
         drop[f] |= gvc_is_degenerate(mesh, (uint32_t)f);
     if (result == GVC_OK) result = copy_kept(mesh, drop, number, kept, error);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/** @file file.c  Loading a whole file, and errors that name the file. */
+/** @file file.c  Loading a whole file. */
 #include "mesh/file.h"
 
 #include "base/memory.h"
@@ -11,27 +11,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-gvc_result gvc_fail_in(gvc_error *error, gvc_result result, const char *name) {
-    if (!error || !name) return result;
-    size_t length = strlen(name), room = sizeof error->where - 1;
-    if (length <= room) {
-        memcpy(error->where, name, length + 1);
-        return result;
-    }
-    /* The end of a path says more than its beginning; do not begin inside a UTF-8 sequence. */
-    const char *tail = name + length - (room - 3);
-    while (((unsigned char)*tail & 0xc0) == 0x80) tail++;
-    snprintf(error->where, sizeof error->where, "...%s", tail);
-    return result;
-}
-
-gvc_result gvc_fail_errno(gvc_error *error, const char *action, int number, const char *name) {
-    char text[128];
-    if (strerror_r(number, text, sizeof text) != 0) snprintf(text, sizeof text, "error %d", number);
-    gvc_fail(error, GVC_ERROR_IO, "cannot %s: %s", action, text);
-    return gvc_fail_in(error, GVC_ERROR_IO, name);
-}
 
 /** Reads to the end. `expected` is the size if known; the file may have changed since. */
 static gvc_result read_all(int descriptor, size_t expected, const char *name, char **data,

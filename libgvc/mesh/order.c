@@ -7,6 +7,7 @@
 #include "base/memory.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /** One stable counting sort: `order` by `key[order[i]]`, into `sorted`. `start` has room for every
  *  vertex and one more. */
@@ -79,14 +80,17 @@ static void order_pair(uint32_t *a, uint32_t *b) {
     *b = swap;
 }
 
-void gvc_face_key(const gvc_mesh *mesh, uint32_t face, uint32_t key[3]) {
+/** The vertices of a face in ascending order. */
+static void face_key(const gvc_mesh *mesh, uint32_t face, uint32_t key[3]) {
     for (int k = 0; k < 3; k++) key[k] = mesh->face[3 * (size_t)face + (size_t)k];
     order_pair(&key[0], &key[1]);
     order_pair(&key[1], &key[2]);
     order_pair(&key[0], &key[1]);
 }
 
-gvc_result gvc_order_faces(const gvc_mesh *mesh, uint32_t **order, gvc_error *error) {
+/** Every face, sorted by its set of vertices, then by index: faces with the same three vertices are
+ *  neighbours. `*order` holds face_count indices; free with free(). */
+static gvc_result order_faces(const gvc_mesh *mesh, uint32_t **order, gvc_error *error) {
     *order = NULL;
     GVC_TRY(check_size(mesh, error));
     size_t count = mesh->face_count;
@@ -96,7 +100,7 @@ gvc_result gvc_order_faces(const gvc_mesh *mesh, uint32_t **order, gvc_error *er
     if (keys[0] && keys[1] && keys[2]) {
         for (uint32_t f = 0; f < count; f++) {
             uint32_t key[3];
-            gvc_face_key(mesh, f, key);
+            face_key(mesh, f, key);
             for (int k = 0; k < 3; k++) keys[k][f] = key[k];
         }
         result = sort_by_keys(keys, 3, count, mesh->vertex_count, order, error);
@@ -105,4 +109,18 @@ gvc_result gvc_order_faces(const gvc_mesh *mesh, uint32_t **order, gvc_error *er
     }
     for (int k = 0; k < 3; k++) free(keys[k]);
     return result;
+}
+
+gvc_result gvc_mark_repeated_faces(const gvc_mesh *mesh, bool *repeated, gvc_error *error) {
+    uint32_t *order;
+    GVC_TRY(order_faces(mesh, &order, error));
+    uint32_t last[3] = {0, 0, 0};
+    for (size_t i = 0; i < mesh->face_count; i++) {
+        uint32_t key[3];
+        face_key(mesh, order[i], key);
+        repeated[order[i]] = i > 0 && memcmp(key, last, sizeof key) == 0;
+        memcpy(last, key, sizeof last);
+    }
+    free(order);
+    return GVC_OK;
 }

@@ -10,12 +10,9 @@
  *  holds 3 * face_count indices; free with free(). GVC_ERROR_MESH if there are too many faces. */
 gvc_result gvc_order_halfedges(const gvc_mesh *mesh, uint32_t **order, gvc_error *error);
 
-/** Every face, sorted by its set of vertices, then by index: faces with the same three vertices are
- *  neighbours. `*order` holds face_count indices; free with free(). */
-gvc_result gvc_order_faces(const gvc_mesh *mesh, uint32_t **order, gvc_error *error);
-
-/** The vertices of a face in ascending order. */
-void gvc_face_key(const gvc_mesh *mesh, uint32_t face, uint32_t key[3]);
+/** Sets repeated[f] for each face f that has the same three vertices as an earlier one, and clears
+ * it for the others. */
+gvc_result gvc_mark_repeated_faces(const gvc_mesh *mesh, bool *repeated, gvc_error *error);
 
 /** The two ends of halfedge h of a mesh, and the same in ascending order. */
 static inline uint32_t gvc_start_of(const gvc_mesh *mesh, uint32_t h) { return mesh->face[h]; }

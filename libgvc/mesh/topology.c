@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /** @file topology.c  What a triangle soup is as a surface: components, borders, fans, genus. */
+#include "base/disjoint.h"
 #include "base/memory.h"
 #include "mesh/order.h"
 
@@ -19,22 +20,6 @@ typedef struct survey {
     uint32_t *at_vertex; /**< per vertex: fans */
     uint32_t *at_fan;    /**< per fan root: a border edge that ends there, + 1; or 0 */
 } survey;
-
-static uint32_t find_root(uint32_t *parent, uint32_t x) {
-    while (parent[x] != x) {
-        parent[x] = parent[parent[x]]; /* path halving */
-        x = parent[x];
-    }
-    return x;
-}
-
-/** The smaller root wins; with path halving that is O(log n) amortised. */
-static void unite(uint32_t *parent, uint32_t x, uint32_t y) {
-    x = find_root(parent, x);
-    y = find_root(parent, y);
-    if (x < y) parent[y] = x;
-    if (y < x) parent[x] = y;
-}
 
 static uint32_t next_corner(uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
 
@@ -69,9 +54,9 @@ static gvc_result begin_survey(const gvc_mesh *mesh, survey *s, gvc_error *error
 static void join_faces(survey *s, uint32_t g, uint32_t h) {
     bool same_way = gvc_start_of(s->mesh, g) == gvc_start_of(s->mesh, h);
     uint32_t g_end = next_corner(g), h_end = next_corner(h);
-    unite(s->component, g / 3, h / 3);
-    unite(s->fan, g, same_way ? h : h_end);
-    unite(s->fan, g_end, same_way ? h_end : h);
+    gvc_disjoint_unite(s->component, g / 3, h / 3);
+    gvc_disjoint_unite(s->fan, g, same_way ? h : h_end);
+    gvc_disjoint_unite(s->fan, g_end, same_way ? h_end : h);
 }
 
 static void count_edges(survey *s, gvc_topology *t) {
@@ -132,11 +117,12 @@ static void count_loops(survey *s, gvc_topology *t) {
         if (faces != 1) continue;
         uint32_t corners[2] = {border, next_corner(border)};
         for (int k = 0; k < 2; k++) {
-            uint32_t *other = &s->at_fan[find_root(s->fan, corners[k])];
+            uint32_t *other = &s->at_fan[gvc_disjoint_root(s->fan, corners[k])];
             if (*other == 0) {
                 *other = border + 1;
-            } else if (find_root(s->loop, border) != find_root(s->loop, *other - 1)) {
-                unite(s->loop, border, *other - 1);
+            } else if (gvc_disjoint_root(s->loop, border) !=
+                       gvc_disjoint_root(s->loop, *other - 1)) {
+                gvc_disjoint_unite(s->loop, border, *other - 1);
                 joined++;
             }
         }
@@ -145,18 +131,14 @@ static void count_loops(survey *s, gvc_topology *t) {
 }
 
 static gvc_result count_duplicates(const gvc_mesh *mesh, gvc_topology *t, gvc_error *error) {
-    uint32_t *order;
-    GVC_TRY(gvc_order_faces(mesh, &order, error));
-    uint32_t last[3] = {0, 0, 0};
-    for (size_t i = 0; i < mesh->face_count; i++) {
-        uint32_t key[3];
-        gvc_face_key(mesh, order[i], key);
-        bool same = i > 0 && key[0] == last[0] && key[1] == last[1] && key[2] == last[2];
-        if (same && !gvc_is_degenerate(mesh, order[i])) t->duplicate_face_count++;
-        for (int k = 0; k < 3; k++) last[k] = key[k];
+    bool *repeated = gvc_alloc(mesh->face_count, sizeof *repeated);
+    gvc_result result = repeated ? GVC_OK : gvc_fail_memory(error);
+    if (result == GVC_OK) result = gvc_mark_repeated_faces(mesh, repeated, error);
+    for (size_t f = 0; result == GVC_OK && f < mesh->face_count; f++) {
+        t->duplicate_face_count += repeated[f] && !gvc_is_degenerate(mesh, (uint32_t)f);
     }
-    free(order);
-    return GVC_OK;
+    free(repeated);
+    return result;
 }
 
 static void conclude(gvc_topology *t) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /** @file write.c  Writing meshes as OFF, OBJ and PLY. */
+#include "base/output.h"
 #include "base/text.h"
-#include "mesh/file.h"
 #include "mesh/mesh.h"
 
 #include <float.h>

@@ -59,10 +59,12 @@ static inline gvc_config config_make(uint64_t declared_frames) {
 #define MADE_AVC_CONFIG "\001\156\000\052\377"
 #define MADE_GROUP 4u /**< most frames of a group made here */
 
-/** Content of a made sample: depends on track, frame and place. Returns its size. */
-static inline size_t sample_bytes(unsigned track, uint64_t frame, uint8_t *data) {
+/** Content of a made sample: depends on track, frame and place. Returns its size. Shape records are
+ * made of any bytes, but the first byte tells whether they are whole (0) or say "same" (1). */
+static inline size_t sample_bytes(unsigned track, uint64_t frame, bool first, uint8_t *data) {
     size_t size = track ? 9 + frame % 3 : 20 + frame * 7 % 11;
     for (size_t i = 0; i < size; i++) data[i] = (uint8_t)(frame * 31 + i * 7 + track * 101);
+    if (track) data[0] = !first;
     return size;
 }
 
@@ -80,10 +82,11 @@ static inline gvc_result write_group(gvc_writer *writer, uint64_t first_frame, s
     for (size_t i = 0; i < count; i++) {
         int32_t order = made_order(count, i);
         uint64_t shown = first_frame + i + (uint64_t)(int64_t)order;
-        sample[0][i] =
-            (gvc_sample){bytes[0][i], sample_bytes(0, shown, bytes[0][i]), order, i == 0};
-        sample[1][i] =
-            (gvc_sample){bytes[1][i], sample_bytes(1, first_frame + i, bytes[1][i]), 0, i == 0};
+        bool first = i == 0;
+        size_t size = sample_bytes(0, shown, first, bytes[0][i]);
+        sample[0][i] = (gvc_sample){bytes[0][i], size, order, first};
+        size = sample_bytes(1, first_frame + i, first, bytes[1][i]);
+        sample[1][i] = (gvc_sample){bytes[1][i], size, 0, first};
     }
     gvc_fragment fragment = {first_frame, count, sample[0], sample[1]};
     return gvc_writer_fragment(writer, &fragment, error);

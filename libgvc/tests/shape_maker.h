@@ -62,7 +62,6 @@ static inline gvc_shape shape_of_two(void) {
     star.start = 8;
     shape.chart[0] = chart_make(star, 0, 0);
     shape.chart[1] = chart_make(table_of_torus(20), 33, 7);
-    shape.chart[1].component = 1;
     return shape;
 }
 

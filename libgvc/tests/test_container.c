@@ -39,11 +39,12 @@ static void test_round_trip(void **state) {
                     uint64_t shown = frame;
                     if (kind == 0) shown += (uint64_t)(int64_t)made_order(small_file[f], i);
                     assert_int_equal(entry->presentation, shown);
-                    assert_int_equal(entry->sync, i == 0);
+                    assert_int_equal(
+                        gvc_demux_sample_of(&demux, fragment, (gvc_track_kind)kind, shown), index);
                     assert_int_equal(
                         gvc_demux_read(&demux, &io, (gvc_track_kind)kind, index, &sample, NULL),
                         GVC_OK);
-                    assert_int_equal(sample.size, sample_bytes(kind, shown, expected));
+                    assert_int_equal(sample.size, sample_bytes(kind, shown, i == 0, expected));
                     assert_memory_equal(sample.data, expected, sample.size);
                 }
             }
@@ -310,6 +311,8 @@ static void test_forged_fields(void **state) {
     assert_int_equal(read_forged(GVC_BOX_TRUN, 8, 0, in_moof), GVC_ERROR_CORRUPT);
     assert_int_equal(read_forged(GVC_BOX_TRUN, 8, UINT32_MAX, in_moof), GVC_ERROR_CORRUPT);
     assert_int_equal(read_forged(GVC_BOX_TRUN, 12, GVC_FLAGS_NON_SYNC, in_moof), GVC_ERROR_CORRUPT);
+    /* Sync samples after the first. */
+    assert_int_equal(read_forged(GVC_BOX_TREX, 20, 0x02000000, in_moov), GVC_ERROR_CORRUPT);
     assert_int_equal(read_forged(GVC_BOX_TRUN, 16, 0, in_moof), GVC_ERROR_CORRUPT);
     assert_int_equal(read_forged(GVC_BOX_TRUN, 16, UINT32_MAX, in_moof), GVC_ERROR_CORRUPT);
     assert_int_equal(read_forged(GVC_BOX_TRUN, 20, 1, in_moof), GVC_ERROR_CORRUPT);
@@ -417,15 +420,25 @@ static void test_writer_refusals(void **state) {
     assert_int_equal(gvc_writer_create(&sink, &config, avc, 5, &writer, NULL), GVC_OK);
     assert_int_equal(write_group(writer, 1, 1, NULL), GVC_ERROR_ARGUMENT);
     assert_int_equal(write_group(writer, 0, 0, NULL), GVC_ERROR_ARGUMENT);
-    uint8_t byte = 0;
-    gvc_sample shape[2] = {{&byte, 1, 0, true}, {&byte, 1, 0, false}};
-    gvc_sample bad[5][2] = {{{&byte, 1, 0, true}, {&byte, 1, -1, false}},
+    uint8_t byte = 0, same = 1;
+    gvc_sample picture[2] = {{&byte, 1, 0, true}, {&byte, 1, 0, false}};
+    gvc_sample shape[2] = {{&byte, 1, 0, true}, {&same, 1, 0, false}};
+    gvc_sample bad[6][2] = {{{&byte, 1, 0, true}, {&byte, 1, -1, false}},
                             {{&byte, 1, 0, true}, {&byte, 1, INT32_MAX, false}},
                             {{&byte, 1, 0, true}, {&byte, 0, 0, false}},
                             {{&byte, 1, 0, false}, {&byte, 1, 0, false}},
+                            {{&byte, 1, 0, true}, {&byte, 1, 0, true}},
                             {{&byte, 1, -1, true}, {&byte, 1, 0, false}}};
-    for (unsigned i = 0; i < 5; i++) {
+    for (unsigned i = 0; i < 6; i++) {
         gvc_fragment fragment = {0, 2, bad[i], shape};
+        assert_int_equal(gvc_writer_fragment(writer, &fragment, NULL), GVC_ERROR_ARGUMENT);
+    }
+    gvc_sample bad_shape[4][2] = {{{&same, 1, 0, true}, {&same, 1, 0, false}},
+                                  {{&byte, 1, 0, true}, {&byte, 1, 0, false}},
+                                  {{&byte, 1, 1, true}, {&same, 1, -1, false}},
+                                  {{&byte, 1, 0, true}, {&same, 1, 0, true}}};
+    for (unsigned i = 0; i < 4; i++) {
+        gvc_fragment fragment = {0, 2, picture, bad_shape[i]};
         assert_int_equal(gvc_writer_fragment(writer, &fragment, NULL), GVC_ERROR_ARGUMENT);
     }
     assert_int_equal(write_group(writer, 0, 4, NULL), GVC_OK);
@@ -461,7 +474,7 @@ static void test_overhead(void **state) {
     size_t payload = 0;
     uint8_t bytes[64];
     for (uint64_t i = 0; i < 1000; i++)
-        payload += sample_bytes(0, i, bytes) + sample_bytes(1, i, bytes);
+        payload += sample_bytes(0, i, true, bytes) + sample_bytes(1, i, true, bytes);
     print_message("%.1f bytes per group of 4 besides samples\n",
                   (double)(file.size - payload) / 250);
     assert_true(file.size - payload < 250 * (4 * 20 + 227) + 1500);

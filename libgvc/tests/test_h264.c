@@ -459,6 +459,31 @@ static void test_parameter_sets_in_samples(void **state) {
     pictures_free(&original);
 }
 
+/* One sample is one picture: what follows another slice must go on with its picture. */
+static void test_two_pictures_in_a_sample(void **state) {
+    (void)state;
+    pictures original;
+    gvc_coded_group group;
+    gvc_h264_options options = default_options(12);
+    pictures_make(&original, 8);
+    encode(&options, &original, &group);
+    for (size_t i = 0; i < group.packet_count; i++) {
+        for (size_t k = i; k < group.packet_count && k < i + 2; k++) {
+            const gvc_packet *one = &group.packet[i], *two = &group.packet[k];
+            uint8_t *sample = malloc(one->size + two->size);
+            assert_non_null(sample);
+            memcpy(sample, one->data, one->size);
+            memcpy(sample + one->size, two->data, two->size);
+            assert_int_equal(decode_replaced(&group, i, sample, one->size), GVC_OK);
+            assert_int_equal(decode_replaced(&group, i, sample, one->size + two->size),
+                             GVC_ERROR_CORRUPT);
+            free(sample);
+        }
+    }
+    gvc_coded_group_free(&group);
+    pictures_free(&original);
+}
+
 static void test_damaged_config(void **state) {
     (void)state;
     pictures original;
@@ -537,6 +562,7 @@ int main(void) {
         cmocka_unit_test(test_flipped_bits),
         cmocka_unit_test(test_missing_pictures),
         cmocka_unit_test(test_parameter_sets_in_samples),
+        cmocka_unit_test(test_two_pictures_in_a_sample),
         cmocka_unit_test(test_damaged_config),
         cmocka_unit_test(test_arguments),
     };

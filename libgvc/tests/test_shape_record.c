@@ -3,6 +3,7 @@
  */
 #include <math.h>
 #include <string.h>
+#include <zstd.h>
 
 #include "shape_maker.h"
 
@@ -16,10 +17,21 @@ static gvc_shape_frame frame_make(bool same, const char *source) {
     return frame;
 }
 
+/** What a file with charts of up to `image_size` says of itself, as far as records depend on it. */
+static gvc_config config_of(uint32_t width, uint32_t height, uint32_t image_size) {
+    return (gvc_config){.picture_width = width, .plane_height = height, .image_size = image_size};
+}
+
+static gvc_result read_bytes(const uint8_t *data, size_t size, gvc_shape *shape,
+                             gvc_shape_frame *frame, gvc_error *error) {
+    gvc_config config = config_of(WIDTH, HEIGHT, HEIGHT);
+    return gvc_shape_record_read(data, size, &config, MEMORY, shape, frame, error);
+}
+
 static gvc_result read_at(const gvc_buffer *record, uint32_t width, uint32_t height,
                           gvc_shape *shape, gvc_shape_frame *frame) {
-    return gvc_shape_record_read(record->data, record->size, width, height, MEMORY, shape, frame,
-                                 NULL);
+    gvc_config config = config_of(width, height, GVC_MAX_IMAGE_SIZE);
+    return gvc_shape_record_read(record->data, record->size, &config, MEMORY, shape, frame, NULL);
 }
 
 static gvc_buffer record_of(const gvc_shape *shape, const gvc_shape_frame *frame) {
@@ -36,7 +48,6 @@ static void test_round_trip(void **state) {
     assert_int_equal(read_at(&record, WIDTH, HEIGHT, &back, &frame_back), GVC_OK);
     assert_true(gvc_shape_equal(&shape, &back));
     assert_int_equal(back.chart[1].genus, 1);
-    assert_int_equal(back.chart[1].component, 1);
     assert_false(frame_back.same);
     assert_memory_equal(frame_back.digest, frame.digest, 8);
     assert_string_equal(frame_back.source, "frame_0001.obj");
@@ -117,7 +128,6 @@ static void test_many_charts(void **state) {
         gvc_side_table table = table_star(17, 3);
         table.start = 3;
         shape.chart[i] = chart_make(table, i % 20 * 17, i / 20 * 17);
-        shape.chart[i].component = i;
     }
     gvc_shape_frame frame = frame_make(false, ""), frame_back;
     gvc_buffer record = record_of(&shape, &frame);
@@ -127,8 +137,9 @@ static void test_many_charts(void **state) {
     assert_true(gvc_shape_equal(&shape, &back));
     gvc_shape_free(&back);
     assert_int_equal(read_at(&record, 338, 340, &back, &frame_back), GVC_ERROR_CORRUPT);
+    gvc_config config = config_of(340, 340, 17);
     assert_int_equal(
-        gvc_shape_record_read(record.data, record.size, 340, 340, 1000, &back, &frame_back, NULL),
+        gvc_shape_record_read(record.data, record.size, &config, 1000, &back, &frame_back, NULL),
         GVC_ERROR_LIMIT);
     gvc_shape_free(&shape);
     gvc_buffer_free(&record);
@@ -149,8 +160,7 @@ static void test_rules(void **state) {
         change;                                                                                    \
         gvc_buffer record = record_of(&shape, &frame);                                             \
         gvc_error_init(&error);                                                                    \
-        assert_int_equal(gvc_shape_record_read(record.data, record.size, WIDTH, HEIGHT, MEMORY,    \
-                                               &back, &frame_back, &error),                        \
+        assert_int_equal(read_bytes(record.data, record.size, &back, &frame_back, &error),         \
                          GVC_ERROR_CORRUPT);                                                       \
         assert_int_equal(error.code, GVC_ERROR_CORRUPT);                                           \
         assert_null(back.chart);                                                                   \
@@ -163,7 +173,6 @@ static void test_rules(void **state) {
     BROKEN(torus->x = UINT32_MAX);
     BROKEN(torus->y = 29);
     BROKEN(torus->y = UINT32_MAX - 10);
-    BROKEN(torus->component = 2);
     BROKEN(torus->genus = 0);
     BROKEN(star->genus = 1);
     BROKEN(star->step = 0);
@@ -207,9 +216,7 @@ static void test_prefixes_and_flips(void **state) {
         for (size_t size = 0; size < record.size; size++) {
             uint8_t *exact = malloc(size ? size : 1);
             memcpy(exact, record.data, size);
-            assert_int_equal(
-                gvc_shape_record_read(exact, size, WIDTH, HEIGHT, MEMORY, &back, &frame_back, NULL),
-                GVC_ERROR_CORRUPT);
+            assert_int_equal(read_bytes(exact, size, &back, &frame_back, NULL), GVC_ERROR_CORRUPT);
             free(exact);
         }
         for (size_t i = 0; i < 8 * record.size; i++) {
@@ -237,13 +244,76 @@ static void test_hostile_counts(void **state) {
     assert_int_equal(read_at(&record, WIDTH, HEIGHT, &back, &frame_back), GVC_ERROR_CORRUPT);
     record.data[0] = 0x08;
     assert_int_equal(read_at(&record, WIDTH, HEIGHT, &back, &frame_back), GVC_ERROR_UNSUPPORTED);
-    /* A zstd frame that says it holds 2^60 bytes: magic, 8-byte size with single segment. */
-    static const uint8_t bomb[] = {4,    0, 0, 0, 0, 0, 0, 0, 0,    0x28, 0xb5, 0x2f, 0xfd,
-                                   0xe0, 0, 0, 0, 0, 0, 0, 0, 0x10, 1,    0,    0};
-    assert_int_equal(
-        gvc_shape_record_read(bomb, sizeof bomb, WIDTH, HEIGHT, MEMORY, &back, &frame_back, NULL),
-        GVC_ERROR_LIMIT);
     gvc_buffer_free(&record);
+}
+
+/** A record of which nothing but a zstd frame's head is there: magic, single segment, content size.
+ */
+static gvc_result read_stated(uint64_t content, size_t max_memory) {
+    gvc_config config = config_of(WIDTH, HEIGHT, HEIGHT);
+    gvc_shape back;
+    gvc_shape_frame frame_back;
+    uint8_t bomb[] = {4,    0, 0, 0, 0, 0, 0, 0, 0, 0x28, 0xb5, 0x2f, 0xfd,
+                      0xe0, 0, 0, 0, 0, 0, 0, 0, 0, 1,    0,    0};
+    for (unsigned i = 0; i < 8; i++) bomb[14 + i] = (uint8_t)(content >> 8 * i);
+    return gvc_shape_record_read(bomb, sizeof bomb, &config, max_memory, &back, &frame_back, NULL);
+}
+
+/** A content size that no body can have is a defect; one that the caller does not want, a limit. */
+static void test_stated_sizes(void **state) {
+    (void)state;
+    uint64_t greatest = 20 + 3 * WIDTH * HEIGHT;
+    assert_int_equal(read_stated(UINT64_C(1) << 60, SIZE_MAX), GVC_ERROR_CORRUPT);
+    assert_int_equal(read_stated(greatest + 1, 0), GVC_ERROR_CORRUPT);
+    assert_int_equal(read_stated(greatest, 1000), GVC_ERROR_LIMIT);
+}
+
+/** No chart is greater than the configuration says. */
+static void test_image_size(void **state) {
+    (void)state;
+    gvc_shape shape = shape_of_two(), back;
+    gvc_shape_frame frame = frame_make(false, ""), frame_back;
+    gvc_buffer record = record_of(&shape, &frame);
+    for (uint32_t most = 20; most <= 34; most++) {
+        gvc_config config = config_of(WIDTH, HEIGHT, most);
+        gvc_result result = gvc_shape_record_read(record.data, record.size, &config, MEMORY, &back,
+                                                  &frame_back, NULL);
+        assert_int_equal(result, most < 33 ? GVC_ERROR_CORRUPT : GVC_OK);
+        gvc_shape_free(&back);
+    }
+    gvc_buffer_free(&record);
+    gvc_shape_free(&shape);
+}
+
+/** The component of a chart is its number. */
+static void test_component(void **state) {
+    (void)state;
+    gvc_shape shape = shape_of_two(), back;
+    gvc_shape_frame frame_back;
+    uint8_t *chart = NULL;
+    gvc_buffer record = {0};
+    /* Written plain: flags, digest, segment 0, one chart, its component. */
+    shape.segment = 0;
+    shape.chart_count = 1;
+    gvc_shape_frame frame = frame_make(false, "");
+    record = record_of(&shape, &frame);
+    if (record.data[0] == 4) { /* packed: the same again, unpacked */
+        uint8_t body[4096];
+        size_t size = ZSTD_decompress(body, sizeof body, record.data + 9, record.size - 9);
+        assert_false(ZSTD_isError(size));
+        record.size = 9;
+        record.data[0] = 0;
+        gvc_write_bytes(&record, body, size);
+    }
+    chart = record.data + 11;
+    assert_int_equal(chart[0], 0);
+    assert_int_equal(read_at(&record, WIDTH, HEIGHT, &back, &frame_back), GVC_OK);
+    gvc_shape_free(&back);
+    chart[0] = 1;
+    assert_int_equal(read_at(&record, WIDTH, HEIGHT, &back, &frame_back), GVC_ERROR_CORRUPT);
+    gvc_buffer_free(&record);
+    shape.chart_count = 2;
+    gvc_shape_free(&shape);
 }
 
 int main(void) {
@@ -251,7 +321,8 @@ int main(void) {
         cmocka_unit_test(test_round_trip),     cmocka_unit_test(test_same_takes_nine_bytes),
         cmocka_unit_test(test_random_tables),  cmocka_unit_test(test_many_charts),
         cmocka_unit_test(test_rules),          cmocka_unit_test(test_prefixes_and_flips),
-        cmocka_unit_test(test_hostile_counts),
+        cmocka_unit_test(test_hostile_counts), cmocka_unit_test(test_stated_sizes),
+        cmocka_unit_test(test_image_size),     cmocka_unit_test(test_component),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

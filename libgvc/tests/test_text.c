@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/** @file test_text.c  Numbers as text: exact in both directions, whatever the locale. */
+/** @file test_text.c  Numbers as text: exact in both directions, whatever the locale; UTF-8. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "base/text.h"
+#include "base/utf8.h"
 
 #include <float.h>
 #include <locale.h>
@@ -247,6 +248,39 @@ static void ignores_the_locale(void **state) {
     if (!found) skip();
 }
 
+/** Every sequence of up to four bytes out of those at the borders of the table of RFC 3629 is a
+ * character exactly if its number, decoded, takes that form. */
+static void knows_well_formed_utf8(void **state) {
+    (void)state;
+    static const uint8_t edge[] = {0x00, 0x41, 0x7f, 0x80, 0x8f, 0x90, 0x9f, 0xa0, 0xbf,
+                                   0xc0, 0xc1, 0xc2, 0xdf, 0xe0, 0xe1, 0xec, 0xed, 0xee,
+                                   0xef, 0xf0, 0xf1, 0xf3, 0xf4, 0xf5, 0xf8, 0xff};
+    enum { COUNT = sizeof edge };
+    size_t met[5] = {0};
+    for (unsigned n = 0; n < COUNT * COUNT * COUNT * COUNT; n++) {
+        uint8_t text[4] = {edge[n % COUNT], edge[n / COUNT % COUNT],
+                           edge[n / COUNT / COUNT % COUNT], edge[n / COUNT / COUNT / COUNT]};
+        size_t ones = 0, expected;
+        while (ones < 8 && text[0] >> (7 - ones) & 1) ones++;
+        size_t size = ones ? ones : 1;
+        bool good = ones != 1 && ones <= 4;
+        uint32_t number = ones ? text[0] & (0x7fu >> ones) : text[0];
+        for (size_t i = 1; good && i < size; i++) {
+            good = (text[i] & 0xc0) == 0x80;
+            number = number << 6 | (text[i] & 0x3fu);
+        }
+        static const uint32_t least[5] = {0, 0, 0x80, 0x800, 0x10000};
+        if (good) good = number >= least[size] && number <= 0x10ffff && number >> 11 != 0x1b;
+        expected = good ? size : 0;
+        assert_int_equal(gvc_utf8_size(text, 4), expected);
+        met[expected]++;
+        for (size_t left = 1; left < 4; left++) {
+            assert_int_equal(gvc_utf8_size(text, left), expected <= left ? expected : 0);
+        }
+    }
+    for (size_t i = 0; i < 5; i++) assert_true(met[i] > 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(parses_what_is_written_in_files),
@@ -259,6 +293,7 @@ int main(void) {
         cmocka_unit_test(formats_random_numbers),
         cmocka_unit_test(formats_whole_numbers),
         cmocka_unit_test(ignores_the_locale),
+        cmocka_unit_test(knows_well_formed_utf8),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -20,6 +20,14 @@ cp a.gvc 'a "quoted" \name.gvc'
 run 0 "$gvc" info --json 'a "quoted" \name.gvc'
 is_json
 grep -q '"frames": 3' stdout.txt || complain "no count of frames in: $last"
+# Names that are no UTF-8: a stray byte, an overlong slash, a surrogate, a character cut short.
+for name in 'a\377b' 'a\300\257b' 'a\355\240\200b' 'a\342\202'; do
+    name=$(printf "$name.gvc")
+    cp a.gvc "$name" 2>/dev/null || continue # not all file systems take them
+    run 0 "$gvc" info --json "$name"
+    is_json
+    grep -q "$(printf '"a\357\277\275')" stdout.txt || complain "no U+FFFD from: $last"
+done
 run 0 "$gvc" info --json --frames a.gvc
 is_json
 [ "$(grep -c '"digest"' stdout.txt)" -eq 3 ] || complain "three frames expected from: $last"
