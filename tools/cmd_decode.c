@@ -152,6 +152,11 @@ static int decode_frames(const decode_arguments *a, gvc_decoder *decoder) {
             status = cli_fail("decode", a->input, &error);
             lost++;
             if (!a->keep_going || decoded) break;
+            if (error.code ==
+                GVC_ERROR_TRUNCATED) { /* the file ends before it: so do all that follow */
+                lost += a->last - frame;
+                break;
+            }
         }
         if (cli_interrupted()) {
             fprintf(stderr, "gvc decode: interrupted after frame %llu\n",

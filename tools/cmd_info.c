@@ -125,7 +125,7 @@ static int print_frames(const info_arguments *a, const gvc_reader *reader, const
             continue;
         }
         status = cli_fail("info", a->input, &error);
-        if (!a->keep_going) break;
+        if (!a->keep_going || error.code == GVC_ERROR_TRUNCATED) break;
     }
     return status;
 }

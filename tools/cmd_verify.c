@@ -125,6 +125,11 @@ static void verify_frames(const verify_arguments *a, const gvc_reader *reader, g
         } else {
             totals->bad++;
             (void)cli_fail("verify", a->input, &error);
+            if (error.code ==
+                GVC_ERROR_TRUNCATED) { /* the file ends before it: so do all that follow */
+                totals->bad += count - frame - 1;
+                break;
+            }
         }
         cli_progress_show(&progress, frame + 1, count);
     }

@@ -47,8 +47,7 @@ bool pattern_fill(const char *pattern, uint64_t number, char **path) {
     return true;
 }
 
-/* ---------------------------------------------------------------------------------- numbered names
- */
+/* ------------------------------------------------------------------------------- numbered names */
 
 /* A file name cut at its last run of digits. */
 typedef struct numbered {

@@ -25,8 +25,7 @@ typedef struct versus {
     render_sight sight;
 } versus;
 
-/* ------------------------------------------------------------------------------------ measuring
- */
+/* ------------------------------------------------------------------------------------ measuring */
 
 /* 1, 2 or 5 times a power of ten, not below `value`. */
 static double round_scale(double value) {

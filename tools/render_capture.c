@@ -56,8 +56,7 @@ gvc_result render_capture_keys(size_t width, render_parts *page, gvc_error *erro
     return render_parts_keys(page, key, sizeof key / sizeof *key, width, error);
 }
 
-/* -------------------------------------------------------------------------------------- colours
- */
+/* -------------------------------------------------------------------------------------- colours */
 
 gvc_result render_capture_scale(render_capture *capture, const render_job *job, gvc_error *error) {
     for (size_t p = 0; p < 3; p++) capture->low[p] = UINT16_MAX, capture->high[p] = 0;
@@ -93,8 +92,7 @@ static gvc_result stretched_image(const render_capture *capture, const uint16_t 
     return result;
 }
 
-/* ------------------------------------------------------------------------------------ the border
- */
+/* ----------------------------------------------------------------------------------- the border */
 
 /* Pixel of sample number `index` along a border of `size` samples: its centre, but the outer edge
  * of the rim for the first and the last. */

@@ -17,8 +17,7 @@ static gvc_result broken(gvc_error *error, const char *what) {
     return gvc_fail(error, GVC_ERROR_INTERNAL, "the cut graph does not open the mesh: %s", what);
 }
 
-/* ------------------------------------------------------------------------------------- labelling
- */
+/* ------------------------------------------------------------------------------------ labelling */
 
 static gvc_result label_edge(const gvc_halfedges *mesh, const gvc_cut_graph *graph, uint32_t e,
                              cut_label *label, gvc_error *error) {
@@ -53,8 +52,7 @@ static gvc_result label_cut(const gvc_halfedges *mesh, const gvc_cut_graph *grap
     return GVC_OK;
 }
 
-/* --------------------------------------------------------------------------------------- cutting
- */
+/* -------------------------------------------------------------------------------------- cutting */
 
 /** Vertices of the opened mesh: a vertex where k cut edges end becomes max(1, k). */
 static size_t count_disk_vertices(const gvc_halfedges *mesh, const cut_label *label,

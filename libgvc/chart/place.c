@@ -81,8 +81,7 @@ static gvc_result split(gvc_disk *disk, uint32_t h, double t, uint32_t *vertex, 
     return GVC_OK;
 }
 
-/* --------------------------------------------------------------------------------------- corners
- */
+/* -------------------------------------------------------------------------------------- corners */
 
 /** Makes room for one more border vertex in all arrays that go along the border. */
 static bool reserve_border(placement *p) {
@@ -150,8 +149,7 @@ static gvc_result place_corners(placement *p, gvc_error *error) {
     return GVC_OK;
 }
 
-/* ---------------------------------------------------------------------------------------- chords
- */
+/* --------------------------------------------------------------------------------------- chords */
 
 /** Splits every inner edge that joins two border vertices. The new vertices are inner ones, so this
  *  makes no new chord; halfedges that move to an appended face are met there. */
@@ -173,8 +171,7 @@ cleanup:
     return result;
 }
 
-/* ---------------------------------------------------------------------------------------- square
- */
+/* --------------------------------------------------------------------------------------- square */
 
 /** The point of the square's border at a border position 0 <= p < P (side_table.h). */
 static void border_point(uint32_t size, double p, double uv[2]) {

@@ -9,6 +9,7 @@
  * 2002). Equal values are told apart by vertex number (simulation of simplicity), so every mesh has
  * a strict order and no plateau needs care.
  */
+#include "base/disjoint.h"
 #include "base/memory.h"
 #include "descriptor/clip.h"
 #include "descriptor/reeb.h"
@@ -73,14 +74,9 @@ static gvc_result sort_vertices(merge_tree *t, gvc_error *error) {
     return GVC_OK;
 }
 
-static uint32_t find_root(uint32_t *parent, uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-}
-
 /* Lets the components of `vertex` and of its higher neighbour meet. */
 static gvc_result meet(merge_tree *t, uint32_t vertex, uint32_t higher, gvc_error *error) {
-    uint32_t a = find_root(t->parent, vertex), b = find_root(t->parent, higher);
+    uint32_t a = gvc_disjoint_root(t->parent, vertex), b = gvc_disjoint_root(t->parent, higher);
     if (a == b) return GVC_OK;
     uint32_t elder = t->maximum[a], younger = t->maximum[b];
     if (t->rank[younger] < t->rank[elder]) {

@@ -146,8 +146,7 @@ static void pass_on(gvc_marcher *m, double *distance, uint32_t vertex) {
     pass_on_unfolded(m, distance, vertex);
 }
 
-/* ----------------------------------------------------------------------------------- the marcher
- */
+/* ---------------------------------------------------------------------------------- the marcher */
 
 static void measure_faces(const gvc_halfedges *mesh, gvc_apex *apex) {
     for (uint32_t h = 0; h < 3 * mesh->face_count; h++) {

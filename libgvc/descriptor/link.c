@@ -200,8 +200,7 @@ cleanup:
     return result;
 }
 
-/* ---------------------------------------------------------------------------- frames that follow
- */
+/* --------------------------------------------------------------------------- frames that follow */
 
 static double square_distance(const double *a, const double *b, size_t dimension) {
     double sum = 0;
@@ -361,8 +360,7 @@ cleanup:
     return result;
 }
 
-/* ------------------------------------------------------------------------------ handles as links
- */
+/* ----------------------------------------------------------------------------- handles as links */
 
 gvc_result gvc_link_of_edge(const gvc_routing *r, uint32_t edge, gvc_link *link, gvc_error *error) {
     const gvc_cut_edge *e = &r->graph->edge[edge];

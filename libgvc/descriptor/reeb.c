@@ -12,6 +12,7 @@
  */
 #include "descriptor/reeb.h"
 
+#include "base/disjoint.h"
 #include "base/memory.h"
 #include "descriptor/clip.h"
 
@@ -46,20 +47,7 @@ static uint32_t piece_of(const pieces *p, size_t face, unsigned level) {
     return p->first[face] + (level - least_level(p, face));
 }
 
-/* ------------------------------------------------------------------------------------ components
- */
-
-static uint32_t find_root(uint32_t *parent, uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-}
-
-/* The lower index becomes the root, so that numbers do not depend on the order of unions. */
-static void unite(uint32_t *parent, uint32_t a, uint32_t b) {
-    a = find_root(parent, a), b = find_root(parent, b);
-    if (a < b) parent[b] = a;
-    if (b < a) parent[a] = b;
-}
+/* ----------------------------------------------------------------------------------- components */
 
 static gvc_result cut_faces(pieces *p, gvc_error *error) {
     const gvc_halfedges *mesh = p->mesh;
@@ -100,7 +88,7 @@ static void join_across_edges(pieces *p) {
             high = swap;
         }
         for (unsigned level = low; level <= high; level++)
-            unite(p->parent, piece_of(p, h / 3, level), piece_of(p, twin / 3, level));
+            gvc_disjoint_unite(p->parent, piece_of(p, h / 3, level), piece_of(p, twin / 3, level));
     }
 }
 
@@ -110,7 +98,7 @@ static void join_across_edges(pieces *p) {
 static gvc_result number_nodes(pieces *p, gvc_reeb_graph *graph, gvc_error *error) {
     uint32_t *start = gvc_alloc((size_t)p->levels + 1, sizeof *start);
     if (!start) return gvc_fail_memory(error);
-    for (uint32_t i = 0; i < p->count; i++) p->parent[i] = find_root(p->parent, i);
+    for (uint32_t i = 0; i < p->count; i++) p->parent[i] = gvc_disjoint_root(p->parent, i);
     for (size_t f = 0; f < p->mesh->face_count; f++)
         for (uint32_t i = p->first[f]; i < p->first[f + 1]; i++)
             if (p->parent[i] == i) start[least_level(p, f) + (i - p->first[f]) + 1]++;

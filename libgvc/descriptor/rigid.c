@@ -81,8 +81,7 @@ void gvc_patch_free(gvc_patch *patch) {
     *patch = (gvc_patch){0};
 }
 
-/* ---------------------------------------------------------------------------------------- motion
- */
+/* --------------------------------------------------------------------------------------- motion */
 
 /* Normal equations of the linearised problem: six unknowns, turn about the centre and shift. */
 typedef struct equations {

@@ -305,8 +305,7 @@ cleanup:
     return result;
 }
 
-/* ---------------------------------------------------------------------------- frames that follow
- */
+/* --------------------------------------------------------------------------- frames that follow */
 
 /* Finds the tips: matched extrema first, the made up ones by geodesic consistency to those. */
 static gvc_result find_tips(gvc_tracker *t, const gvc_features *features, workspace *w, bool *kept,

@@ -313,8 +313,7 @@ gvc_result gvc_segment_layout(gvc_segment *segment, const gvc_frame_work *work, 
     return gvc_at_frame(error, result, (int64_t)work->number);
 }
 
-/* --------------------------------------------------------------------------------- what is coded
- */
+/* -------------------------------------------------------------------------------- what is coded */
 
 gvc_result gvc_segment_shape(const gvc_segment *segment, const gvc_cut_graph *graph,
                              gvc_shape *shape, gvc_error *error) {

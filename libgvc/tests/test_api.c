@@ -5,8 +5,7 @@
 
 #include <unistd.h>
 
-/* ----------------------------------------------------------------------------------- bad sources
- */
+/* ---------------------------------------------------------------------------------- bad sources */
 
 /* A good capture of which one frame is another mesh, or fails. */
 typedef struct bad_source {
@@ -167,8 +166,7 @@ static void meshes_are_checked_when_made(void **state) {
     }
 }
 
-/* ------------------------------------------------------------------------------ sinks, cancelling
- */
+/* ---------------------------------------------------------------------------- sinks, cancelling */
 
 static void a_failing_sink_fails_the_encode(void **state) {
     (void)state;
@@ -301,8 +299,7 @@ static void an_error_out_of_reach_is_told(void **state) {
     capture_free(&frames);
 }
 
-/* --------------------------------------------------------------------------------------- readers
- */
+/* -------------------------------------------------------------------------------------- readers */
 
 static gvc_result io_read(void *user, uint64_t offset, void *data, size_t size, gvc_error *error) {
     const bytes *file = user;

@@ -7,8 +7,7 @@
 
 #include "chart/layout.h"
 
-/* ----------------------------------------------------------------------------------------- steps
- */
+/* ---------------------------------------------------------------------------------------- steps */
 
 /** A path of `count` edges, edge 0 closed to a loop if asked for; only for the minima. */
 static gvc_cut_graph plain_graph(uint32_t count, bool loop) {
@@ -164,8 +163,7 @@ static void test_starts_are_those_the_weld_allows(void **state) {
     gvc_side_table_free(&large);
 }
 
-/* ----------------------------------------------------------------------------------------- place
- */
+/* ---------------------------------------------------------------------------------------- place */
 
 static double area(const gvc_halfedges *m) {
     double sum = 0;

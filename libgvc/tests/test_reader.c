@@ -106,8 +106,7 @@ static gvc_buffer group_make(uint32_t image_size, size_t odd) {
     return file;
 }
 
-/* --------------------------------------------------------------------------------------- records
- */
+/* -------------------------------------------------------------------------------------- records */
 
 static void facts_of_a_frame_take_two_records(void **state) {
     (void)state;
@@ -187,8 +186,7 @@ static void charts_are_no_larger_than_the_file_says(void **state) {
     }
 }
 
-/* ----------------------------------------------------------------------------------------- codes
- */
+/* ---------------------------------------------------------------------------------------- codes */
 
 /** The mesh made here from codes and shape must be the one that the decoder hands out. */
 static void check_codes(const player *made, uint64_t frame) {

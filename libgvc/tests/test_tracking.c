@@ -15,8 +15,7 @@
 
 #include <string.h>
 
-/* --------------------------------------------------------------------------------------- matching
- */
+/* ------------------------------------------------------------------------------------- matching */
 
 /* Least cost over all assignments of rows to columns not yet used. */
 static double cheapest(const double *cost, size_t row, size_t rows, size_t columns, unsigned used) {
@@ -101,8 +100,7 @@ static void prior_is_the_distance_to_the_polyline(void **state) {
     gvc_prior_free(&prior);
 }
 
-/* --------------------------------------------------------------------------------------- segments
- */
+/* ------------------------------------------------------------------------------------- segments */
 
 static const gvc_tracker_options usual = {1, 0.3, 0.5};
 static const gvc_features_options few_samples = {40, 0.01};
