@@ -131,7 +131,7 @@ static gvc_result flush_group(encoder *e, gvc_error *error) {
         GVC_TRY(gvc_writer_create(e->sink, &config, group->coded.config, group->coded.config_size,
                                   &e->writer, error));
     }
-    GVC_TRY(gvc_group_write(group, e->writer, error));
+    GVC_TRY(gvc_group_write(group, e->source, e->writer, error));
     e->report.gop_count++;
     e->report.frame_count += group->count;
     e->report.worst_rms = fmax(e->report.worst_rms, rms);

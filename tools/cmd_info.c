@@ -99,7 +99,9 @@ static void print_frame(const info_arguments *a, uint64_t frame, const gvc_frame
                first ? "" : ",", frame, f->byte_count, f->keyframe ? "true" : "false", f->segment,
                f->chart_count, f->genus, f->extremum_count, f->node_count, f->edge_count);
         print_digest(f->digest);
-        printf("\"}");
+        printf("\", \"source\": ");
+        cli_json_string(stdout, f->source);
+        printf("}");
         return;
     }
     printf("%8" PRIu64 " %8" PRIu64 " %s segment %" PRIu64
@@ -107,6 +109,7 @@ static void print_frame(const info_arguments *a, uint64_t frame, const gvc_frame
            frame, f->byte_count, f->keyframe ? "key" : "   ", f->segment, f->genus,
            f->extremum_count, f->node_count, f->edge_count);
     print_digest(f->digest);
+    if (f->source[0]) printf(", from %s", f->source);
     printf("\n");
 }
 

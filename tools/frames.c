@@ -304,9 +304,10 @@ static gvc_result read_frame(void *user, uint64_t frame, gvc_mesh **mesh, gvc_er
                            gvc_mesh_faces(kept), gvc_mesh_face_count(kept), mesh, error);
 }
 
+/* Standard input has no name. */
 static const char *frame_name(void *user, uint64_t frame) {
     const frame_list *list = user;
-    return list->path[frame];
+    return strcmp(list->path[frame], "-") == 0 ? NULL : list->path[frame];
 }
 
 gvc_source frame_list_source(frame_list *list) {

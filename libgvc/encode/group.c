@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "chart/rebuild.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -127,13 +128,26 @@ static gvc_result digest_frame(const gvc_group *group, const uint16_t *luma, uin
     return result;
 }
 
-/* All shape records, one after the other in `bytes`; samples[i] gets the size of record i. */
-static gvc_result write_records(const gvc_group *group, gvc_buffer *bytes, gvc_sample *samples,
-                                gvc_error *error) {
+/* Last part of a frame's name; of a very long one, the end. */
+static void name_frame(const gvc_source *source, uint64_t frame, char *text, size_t size) {
+    const char *name = source->name ? source->name(source->user, frame) : NULL;
+    if (!name) return;
+    const char *slash = strrchr(name, '/');
+    if (slash) name = slash + 1;
+    size_t length = strlen(name);
+    snprintf(text, size, "%s", length < size ? name : name + (length - size + 1));
+}
+
+/* All shape records, one after the other in `bytes`; samples[i] gets the size of record i. The
+ * first names the frame it was made from: enough to find the others in a numbered series, and no
+ * bytes for each of them. */
+static gvc_result write_records(const gvc_group *group, const gvc_source *source, gvc_buffer *bytes,
+                                gvc_sample *samples, gvc_error *error) {
     for (size_t i = 0; i < group->count; i++) {
         gvc_shape_frame facts = {.same = i > 0};
         size_t before = bytes->size;
         GVC_TRY(digest_frame(group, group->frame[i].decoded, facts.digest, error));
+        if (i == 0) name_frame(source, group->first_frame, facts.source, sizeof facts.source);
         GVC_TRY(gvc_shape_record_write(&group->shape, &facts, bytes, error));
         samples[i].size = bytes->size - before;
         samples[i].sync = i == 0;
@@ -141,12 +155,13 @@ static gvc_result write_records(const gvc_group *group, gvc_buffer *bytes, gvc_s
     return bytes->failed ? gvc_fail_memory(error) : GVC_OK;
 }
 
-gvc_result gvc_group_write(gvc_group *group, gvc_writer *writer, gvc_error *error) {
+gvc_result gvc_group_write(gvc_group *group, const gvc_source *source, gvc_writer *writer,
+                           gvc_error *error) {
     gvc_buffer bytes = {0};
     gvc_sample *geometry = gvc_alloc(group->count, sizeof *geometry);
     gvc_sample *shape = gvc_alloc(group->count, sizeof *shape);
     gvc_result result = geometry && shape ? GVC_OK : gvc_fail_memory(error);
-    if (result == GVC_OK) result = write_records(group, &bytes, shape, error);
+    if (result == GVC_OK) result = write_records(group, source, &bytes, shape, error);
     if (result == GVC_OK) {
         size_t at = 0;
         for (size_t i = 0; i < group->count; i++) {

@@ -34,6 +34,7 @@ gvc_result gvc_group_code(gvc_group *group, const gvc_encode_options *options, d
                           gvc_error *error);
 
 /** Writes the coded group as one fragment, with shape records and digests of the decoded frames. */
-gvc_result gvc_group_write(gvc_group *group, gvc_writer *writer, gvc_error *error);
+gvc_result gvc_group_write(gvc_group *group, const gvc_source *source, gvc_writer *writer,
+                           gvc_error *error);
 
 #endif

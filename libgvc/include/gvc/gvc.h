@@ -271,8 +271,8 @@ typedef struct gvc_frame_info {
     uint32_t genus;          /**< summed over charts */
     uint32_t extremum_count; /**< nodes of the cut graph that are extrema */
     uint32_t node_count, edge_count;
-    bool keyframe;     /**< starts a group of frames */
-    char source[64];   /**< name of the original frame, may be empty */
+    bool keyframe;   /**< starts a group of frames */
+    char source[64]; /**< name of the original frame; the encoder here names the first of a group */
     uint8_t digest[8]; /**< of the decoded codes and faces */
 } gvc_frame_info;
 
