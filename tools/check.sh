@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 step() { printf '\n== %s\n' "$*"; }
 
 step "dependencies"
-tools/install-dependencies.sh clang libclang-rt-14-dev clang-format
+tools/install-dependencies.sh clang llvm libclang-rt-14-dev clang-format
 
 step "source format"
 find libgvc tools fuzz -name '*.[ch]' -print0 | xargs -0 clang-format --dry-run --Werror
