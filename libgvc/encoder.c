@@ -212,7 +212,6 @@ static gvc_result try_cut(encoder *e, gvc_frame_work *work, size_t extrema, gvc_
 }
 
 static gvc_result begin_segment(encoder *e, gvc_frame_work *work, gvc_error *error) {
-    gvc_segment_free(&e->segment);
     e->in_segment = false;
     GVC_TRY(gvc_segment_begin(e->source, &e->options, e->facts, e->report.segment_count,
                               work->number, &e->segment, error));

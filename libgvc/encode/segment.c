@@ -86,6 +86,9 @@ static gvc_result vote(gvc_segment *segment, const gvc_source *source,
 gvc_result gvc_segment_begin(const gvc_source *source, const gvc_encode_options *options,
                              const gvc_scan_frame *facts, uint64_t number, uint64_t first,
                              gvc_segment *segment, gvc_error *error) {
+    uint64_t vote_end = segment->vote_end;
+    size_t extremum_count = segment->extremum_count;
+    gvc_segment_free(segment);
     *segment = (gvc_segment){.number = number, .first_frame = first, .end_frame = first + 1};
     while (segment->end_frame < source->frame_count &&
            facts[segment->end_frame].genus == facts[first].genus) {
@@ -95,6 +98,11 @@ gvc_result gvc_segment_begin(const gvc_source *source, const gvc_encode_options 
     segment->image_options.parameterize.curvature_exponent = options->curvature_weight;
     segment->image_options.fit = true;
     set_cube(segment, facts);
+    segment->vote_end = segment->end_frame;
+    if (vote_end == segment->vote_end) {
+        segment->extremum_count = extremum_count;
+        return GVC_OK;
+    }
     return vote(segment, source, options, error);
 }
 
