@@ -22,6 +22,7 @@
 #define SIZE_FRAMES 3
 /* A new layout must lower the sampling error at least to this share to begin a segment. */
 #define WORTH_A_LAYOUT 0.9
+#define WORTH_A_TIP 0.95
 #define SIZE_SAMPLES 10000
 
 typedef struct encoder {
@@ -211,11 +212,8 @@ static gvc_result try_cut(encoder *e, gvc_frame_work *work, size_t extrema, gvc_
     return gvc_segment_layout(&e->segment, work, e->size, e->options.threads, error);
 }
 
-static gvc_result begin_segment(encoder *e, gvc_frame_work *work, gvc_error *error) {
-    e->in_segment = false;
-    GVC_TRY(gvc_segment_begin(e->source, &e->options, e->facts, e->report.segment_count,
-                              work->number, &e->segment, error));
-    /* A chart that folds over itself may come out whole with a longer or a shorter cut. */
+/* A chart that folds over itself may come out whole with a longer or a shorter cut. */
+static gvc_result cut_somehow(encoder *e, gvc_frame_work *work, gvc_error *error) {
     static const int more[] = {0, 1, 2, -1};
     gvc_result result = GVC_ERROR_MESH;
     for (size_t i = 0; i < sizeof more / sizeof *more && result == GVC_ERROR_MESH; i++) {
@@ -224,6 +222,42 @@ static gvc_result begin_segment(encoder *e, gvc_frame_work *work, gvc_error *err
         if (i > 0 && extrema > work->features.extremum_count) continue;
         result = try_cut(e, work, extrema, error);
     }
+    return result;
+}
+
+/* A frame that is a segment by itself has nothing to be consistent with, so slighter extrema may be
+ * cut to as well, such as ears and horns, if that lowers the error: on a cow from 2.1 to 0.6 %
+ * Hausdorff. */
+static gvc_result cut_still(encoder *e, gvc_frame_work *work, gvc_error *error) {
+    static const double slighter[] = {0.14, 0.1, 0.07};
+    const gvc_features *features = &work->features;
+    GVC_TRY(cut_somehow(e, work, error));
+    double least = e->segment.trial_rms;
+    size_t voted = e->segment.extremum_count, best = voted, tried = voted;
+    for (size_t i = 0; i < sizeof slighter / sizeof *slighter; i++) {
+        size_t extrema = tried;
+        while (extrema < features->extremum_count &&
+               features->extremum[extrema].persistence >= slighter[i]) {
+            extrema++;
+        }
+        if (extrema == tried) continue;
+        tried = extrema;
+        gvc_result result = try_cut(e, work, extrema, error);
+        if (result != GVC_OK && result != GVC_ERROR_MESH) return result;
+        if (result != GVC_OK || e->segment.trial_rms > WORTH_A_TIP * least) continue;
+        least = e->segment.trial_rms;
+        best = extrema;
+    }
+    if (tried == best) return GVC_OK;
+    return best == voted ? cut_somehow(e, work, error) : try_cut(e, work, best, error);
+}
+
+static gvc_result begin_segment(encoder *e, gvc_frame_work *work, gvc_error *error) {
+    e->in_segment = false;
+    GVC_TRY(gvc_segment_begin(e->source, &e->options, e->facts, e->report.segment_count,
+                              work->number, &e->segment, error));
+    bool still = e->segment.end_frame == e->segment.first_frame + 1;
+    gvc_result result = still ? cut_still(e, work, error) : cut_somehow(e, work, error);
     if (result != GVC_OK) return gvc_at_frame(error, result, (int64_t)work->number);
     e->report.segment_count++;
     e->in_segment = true;

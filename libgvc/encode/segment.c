@@ -270,7 +270,10 @@ static gvc_result choose_start(gvc_segment *segment, const gvc_frame_work *work,
         result = gvc_fail(error, GVC_ERROR_MESH,
                           "the surface cut open folds over itself in every chart tried");
     }
-    if (result == GVC_OK) sides->start = context.start[best];
+    if (result == GVC_OK) {
+        sides->start = context.start[best];
+        segment->trial_rms = context.rms[best];
+    }
     return result;
 }
 
@@ -300,6 +303,7 @@ gvc_result gvc_segment_layout(gvc_segment *segment, const gvc_frame_work *work, 
     double *length = NULL;
     gvc_result result = gvc_disk_open(&work->halfedges, &work->graph, &disk, error);
     if (result == GVC_OK) {
+        free(segment->run);
         segment->run = disk.run;
         segment->run_count = disk.run_count;
         disk.run = NULL;
@@ -312,6 +316,7 @@ gvc_result gvc_segment_layout(gvc_segment *segment, const gvc_frame_work *work, 
     }
     if (result == GVC_OK) result = choose_start(segment, work, &trial, threads, error);
     if (result == GVC_OK) {
+        gvc_side_table_free(&segment->sides);
         segment->sides = trial;
         trial = (gvc_side_table){0};
         result = gvc_segment_resize(segment, work, size ? size : TRIAL_SIZE, error);

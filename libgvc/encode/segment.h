@@ -15,6 +15,7 @@ typedef struct gvc_segment {
     double origin[3], step;          /**< position = origin + step * 16-bit code */
     uint64_t vote_end;               /**< end of the run whose frames voted */
     size_t extremum_count;
+    double trial_rms;    /**< least sampling error met in the trials of the layout */
     gvc_border_run *run; /**< cyclic sequence of border runs of its first frame */
     size_t run_count;
     gvc_side_table sides;
