@@ -209,10 +209,12 @@ static gvc_result try_cut(encoder *e, gvc_frame_work *work, size_t extrema, gvc_
     GVC_TRY(restore_frame(work, error));
     GVC_TRY(gvc_tracker_start(e->tracker, &work->features, extrema, &work->halfedges, &work->graph,
                               error));
-    return gvc_segment_layout(&e->segment, work, e->size, e->options.threads, error);
+    uint32_t size = e->size ? e->size : e->options.image_size;
+    return gvc_segment_layout(&e->segment, work, size, e->options.threads, error);
 }
 
-/* A chart that folds over itself may come out whole with a longer or a shorter cut. */
+/* A chart that folds over itself, or a cut too long for the image, may come out well with other
+ * tips. */
 static gvc_result cut_somehow(encoder *e, gvc_frame_work *work, gvc_error *error) {
     static const int more[] = {0, 1, 2, -1};
     gvc_result result = GVC_ERROR_MESH;
