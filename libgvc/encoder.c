@@ -8,6 +8,7 @@
  */
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "encode/cut.h"
 #include "encode/group.h"
 #include "encode/rate.h"
 
@@ -22,7 +23,6 @@
 #define SIZE_FRAMES 3
 /* A new layout must lower the sampling error at least to this share to begin a segment. */
 #define WORTH_A_LAYOUT 0.9
-#define WORTH_A_TIP 0.95
 #define SIZE_SAMPLES 10000
 
 typedef struct encoder {
@@ -38,9 +38,7 @@ typedef struct encoder {
 
     gvc_tracker *tracker;
     gvc_segment segment;
-    bool in_segment;
-    uint64_t segment_start; /* frame whose cut it began with */
-    uint32_t size;          /* of all images; 0 until chosen */
+    uint32_t size; /* of all images; 0 until chosen */
     gvc_group group;
     gvc_writer *writer; /* NULL until the first group is coded */
     double crf;         /* of the last group: guess for the next */
@@ -197,73 +195,12 @@ static gvc_result choose_size(encoder *e, size_t first, size_t end, gvc_error *e
     return GVC_OK;
 }
 
-/* A frame as it was before a cut was tried. */
-static gvc_result restore_frame(gvc_frame_work *work, gvc_error *error) {
-    gvc_cut_graph_free(&work->graph);
-    gvc_halfedges_free(&work->halfedges);
-    return gvc_halfedges_build(work->mesh, 0, &work->halfedges, error);
-}
-
-/* Cuts the first frame of a segment to `extrema` tips and lays its border out. */
-static gvc_result try_cut(encoder *e, gvc_frame_work *work, size_t extrema, gvc_error *error) {
-    GVC_TRY(restore_frame(work, error));
-    GVC_TRY(gvc_tracker_start(e->tracker, &work->features, extrema, &work->halfedges, &work->graph,
-                              error));
-    uint32_t size = e->size ? e->size : e->options.image_size;
-    return gvc_segment_layout(&e->segment, work, size, e->options.threads, error);
-}
-
-/* A chart that folds over itself, or a cut too long for the image, may come out well with other
- * tips. */
-static gvc_result cut_somehow(encoder *e, gvc_frame_work *work, gvc_error *error) {
-    static const int more[] = {0, 1, 2, -1};
-    gvc_result result = GVC_ERROR_MESH;
-    for (size_t i = 0; i < sizeof more / sizeof *more && result == GVC_ERROR_MESH; i++) {
-        if (more[i] < 0 && e->segment.extremum_count == 0) break;
-        size_t extrema = e->segment.extremum_count + (size_t)more[i];
-        if (i > 0 && extrema > work->features.extremum_count) continue;
-        result = try_cut(e, work, extrema, error);
-    }
-    return result;
-}
-
-/* A frame that is a segment by itself has nothing to be consistent with, so slighter extrema may be
- * cut to as well, such as ears and horns, if that lowers the error: on a cow from 2.1 to 0.5 %
- * Hausdorff. */
-static gvc_result cut_still(encoder *e, gvc_frame_work *work, gvc_error *error) {
-    static const double slighter[] = {0.14, 0.1, 0.07};
-    const gvc_features *features = &work->features;
-    GVC_TRY(cut_somehow(e, work, error));
-    double least = e->segment.trial_rms;
-    size_t voted = e->segment.extremum_count, best = voted, tried = voted;
-    for (size_t i = 0; i < sizeof slighter / sizeof *slighter; i++) {
-        size_t extrema = tried;
-        while (extrema < features->extremum_count &&
-               features->extremum[extrema].persistence >= slighter[i]) {
-            extrema++;
-        }
-        if (extrema == tried) continue;
-        tried = extrema;
-        gvc_result result = try_cut(e, work, extrema, error);
-        if (result != GVC_OK && result != GVC_ERROR_MESH) return result;
-        if (result != GVC_OK || e->segment.trial_rms > WORTH_A_TIP * least) continue;
-        least = e->segment.trial_rms;
-        best = extrema;
-    }
-    if (tried == best) return GVC_OK;
-    return best == voted ? cut_somehow(e, work, error) : try_cut(e, work, best, error);
-}
-
-static gvc_result begin_segment(encoder *e, gvc_frame_work *work, gvc_error *error) {
-    e->in_segment = false;
-    GVC_TRY(gvc_segment_begin(e->source, &e->options, e->facts, e->report.segment_count,
-                              work->number, &e->segment, error));
-    bool still = e->segment.end_frame == e->segment.first_frame + 1;
-    gvc_result result = still ? cut_still(e, work, error) : cut_somehow(e, work, error);
-    if (result != GVC_OK) return gvc_at_frame(error, result, (int64_t)work->number);
-    e->report.segment_count++;
-    e->in_segment = true;
-    return GVC_OK;
+static gvc_cutter cutter_of(const encoder *e) {
+    return (gvc_cutter){.source = e->source,
+                        .options = &e->options,
+                        .facts = e->facts,
+                        .tracker = e->tracker,
+                        .size = e->size ? e->size : e->options.image_size};
 }
 
 /* Settles the image size with the first frames cut, and with it what depends on it. */
@@ -299,15 +236,6 @@ static gvc_result refresh_layout(encoder *e, const gvc_frame_work *work, gvc_err
     }
     gvc_segment_free(&next);
     return result;
-}
-
-/* Finds the cut of the next frame, in order. *continues is false, and nothing is kept, if a new
- * segment must start with it. */
-static gvc_result follow(encoder *e, gvc_frame_work *work, bool *continues, gvc_error *error) {
-    *continues = false;
-    if (!e->in_segment || work->number >= e->segment.end_frame) return GVC_OK;
-    return gvc_tracker_next(e->tracker, &work->features, &work->halfedges, &work->graph, continues,
-                            error);
 }
 
 /* -------------------------------------------------------------------------------------- batches */
@@ -374,7 +302,7 @@ static gvc_result add_images(encoder *e, size_t first, size_t *end, gvc_error *e
     }
     drop_images(group, group->count + good, group->count + count);
     if (result != GVC_OK) return result;
-    if (good == 0 && e->segment_start == e->work[first].number) {
+    if (good == 0 && e->segment.first_frame == e->work[first].number) {
         /* a new segment is all that could help, and this is one */
         if (error) *error = context.error[0];
         return GVC_ERROR_MESH;
@@ -388,18 +316,20 @@ static gvc_result add_images(encoder *e, size_t first, size_t *end, gvc_error *e
 /* Cuts as many frames of the batch from `first` on as the segment and the group take, then makes
  * their images. */
 static gvc_result encode_run(encoder *e, size_t first, size_t *end, gvc_error *error) {
+    const gvc_cutter cutter = cutter_of(e);
     bool continues;
-    GVC_TRY(follow(e, &e->work[first], &continues, error));
+    GVC_TRY(gvc_cut_follow(&cutter, &e->segment, &e->work[first], &continues, error));
     if (!continues) {
         GVC_TRY(flush_group(e, error));
-        GVC_TRY(begin_segment(e, &e->work[first], error));
-        e->segment_start = e->work[first].number;
+        GVC_TRY(
+            gvc_cut_begin(&cutter, e->report.segment_count, &e->work[first], &e->segment, error));
+        e->report.segment_count++;
     } else if (e->group.count == 0) {
         GVC_TRY(refresh_layout(e, &e->work[first], error));
     }
     size_t room = e->options.gop - e->group.count, cut = first + 1;
     while (cut < e->batch_count && cut - first < room) {
-        GVC_TRY(follow(e, &e->work[cut], &continues, error));
+        GVC_TRY(gvc_cut_follow(&cutter, &e->segment, &e->work[cut], &continues, error));
         if (!continues) break;
         cut++;
     }
@@ -407,7 +337,7 @@ static gvc_result encode_run(encoder *e, size_t first, size_t *end, gvc_error *e
     *end = cut;
     if (e->size == 0) GVC_TRY(settle_size(e, first, cut, error));
     GVC_TRY(add_images(e, first, end, error));
-    for (size_t i = *end; i < cut; i++) GVC_TRY(restore_frame(&e->work[i], error));
+    for (size_t i = *end; i < cut; i++) GVC_TRY(gvc_frame_uncut(&e->work[i], error));
     if (broken || *end < cut) {
         GVC_TRY(flush_group(e, error));
         e->segment.end_frame = e->work[*end].number; /* it starts a segment */

@@ -59,6 +59,10 @@ void cli_json_string(FILE *file, const char *text) {
     fputc('"', file);
 }
 
+uint64_t cli_frame_count(const gvc_info *info) {
+    return info->declared_count > info->frame_count ? info->declared_count : info->frame_count;
+}
+
 /* ------------------------------------------------------------------------------------- numbers */
 
 bool cli_uint(const char *text, uint64_t least, uint64_t most, uint64_t *value) {

@@ -31,6 +31,9 @@ int cli_make_folder(const char *command, const char *path);
 /** Whether a file that only -f would replace has this name; then it is told. */
 bool cli_in_the_way(const char *command, const char *path);
 
+/** Frames a file should have: those it declares, or those it holds if that is more. */
+uint64_t cli_frame_count(const gvc_info *info);
+
 /** Whole-string numbers, independent of the locale; false if malformed or out of range. */
 bool cli_uint(const char *text, uint64_t least, uint64_t most, uint64_t *value);
 bool cli_double(const char *text, double *value);

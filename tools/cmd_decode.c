@@ -179,8 +179,7 @@ static int decode(decode_arguments *a, const gvc_reader *reader) {
     gvc_error error;
     gvc_decoder *decoder = NULL;
     gvc_reader_info(reader, &info);
-    uint64_t count =
-        info.declared_count > info.frame_count ? info.declared_count : info.frame_count;
+    uint64_t count = cli_frame_count(&info);
     if (count == 0) {
         fprintf(stderr, "gvc decode: %s: the file holds no frames\n", a->input);
         return EXIT_DATA;

@@ -114,8 +114,7 @@ static void print_frame(const info_arguments *a, uint64_t frame, const gvc_frame
 }
 
 static int print_frames(const info_arguments *a, const gvc_reader *reader, const gvc_info *info) {
-    uint64_t count =
-        info->declared_count > info->frame_count ? info->declared_count : info->frame_count;
+    uint64_t count = cli_frame_count(info);
     int status = EXIT_DONE;
     bool first = true;
     for (uint64_t frame = 0; frame < count; frame++) {

@@ -154,8 +154,7 @@ static int verify(const verify_arguments *a, const gvc_reader *reader, const gvc
     gvc_decoder *decoder = NULL;
     verify_totals totals = {0};
     gvc_reader_info(reader, &info);
-    uint64_t count =
-        info.declared_count > info.frame_count ? info.declared_count : info.frame_count;
+    uint64_t count = cli_frame_count(&info);
     gvc_error_init(&error);
     if (source && source->frame_count != count) {
         fprintf(stderr,

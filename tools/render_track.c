@@ -4,7 +4,7 @@
 
 #include "base/memory.h"
 #include "base/parallel.h"
-#include "encode/segment.h"
+#include "encode/cut.h"
 
 #include <stdlib.h>
 
@@ -20,36 +20,21 @@ typedef struct follower {
     gvc_scan_frame *facts;
     gvc_tracker *tracker;
     gvc_segment segment;
-    bool in_segment;
+    uint64_t segment_count;
 
     gvc_frame_work work[BATCH];
     uint64_t batch_first;
 } follower;
 
-static gvc_result begin_segment(follower *f, gvc_frame_work *work, gvc_error *error) {
-    if (f->in_segment) {
-        /* The halfedges may have been split when this frame was tried. */
-        gvc_halfedges_free(&work->halfedges);
-        GVC_TRY(gvc_halfedges_build(work->mesh, 0, &work->halfedges, error));
-    }
-    uint64_t number = f->in_segment ? f->segment.number + 1 : 0;
-    gvc_segment_free(&f->segment);
-    GVC_TRY(gvc_segment_begin(f->source, &f->options, f->facts, number, work->number, &f->segment,
-                              error));
-    f->in_segment = true;
-    GVC_TRY(gvc_tracker_start(f->tracker, &work->features, f->segment.extremum_count,
-                              &work->halfedges, &work->graph, error));
-    f->hooks->segment(f->hooks->user, work->number, &work->graph);
-    return GVC_OK;
-}
-
 static gvc_result follow(follower *f, gvc_frame_work *work, gvc_error *error) {
-    bool continues = false;
-    if (f->in_segment && work->number < f->segment.end_frame) {
-        GVC_TRY(gvc_tracker_next(f->tracker, &work->features, &work->halfedges, &work->graph,
-                                 &continues, error));
+    const gvc_cutter cutter = {
+        .source = f->source, .options = &f->options, .facts = f->facts, .tracker = f->tracker};
+    bool continues;
+    GVC_TRY(gvc_cut_follow(&cutter, &f->segment, work, &continues, error));
+    if (!continues) {
+        GVC_TRY(gvc_cut_begin(&cutter, f->segment_count++, work, &f->segment, error));
+        f->hooks->segment(f->hooks->user, work->number, &work->graph);
     }
-    if (!continues) GVC_TRY(begin_segment(f, work, error));
     if (f->shown == f->count || work->number != f->frame[f->shown]) return GVC_OK;
     render_tracked tracked = {.index = f->shown++,
                               .frame = work->number,

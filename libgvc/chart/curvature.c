@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "chart/conjugate_gradient.h"
+#include "mesh/vector.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -20,20 +21,6 @@ typedef struct surface {
     double *cotangent; /* per halfedge: of the angle opposite, not negative, times time / 2 */
     double *diagonal;  /* of the diffusion operator area + time * Laplacian */
 } surface;
-
-static void subtract(const double *a, const double *b, double *d) {
-    for (int c = 0; c < 3; c++) d[c] = a[c] - b[c];
-}
-
-static double dot(const double *a, const double *b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double *a, const double *b, double *c) {
-    c[0] = a[1] * b[2] - a[2] * b[1];
-    c[1] = a[2] * b[0] - a[0] * b[2];
-    c[2] = a[0] * b[1] - a[1] * b[0];
-}
 
 static double squared_diagonal(const gvc_halfedges *mesh) {
     double sum = 0;
@@ -71,16 +58,16 @@ static void measure(surface *s, double time, double *normal) {
     for (size_t f = 0; f < m->face_count; f++) {
         double edge[3][3], n[3];
         for (int k = 0; k < 3; k++) /* edge k is opposite to corner k */
-            subtract(m->position + 3 * m->vertex[3 * f + (k + 2) % 3],
-                     m->position + 3 * m->vertex[3 * f + (k + 1) % 3], edge[k]);
-        cross(edge[0], edge[1], n);
-        double twice = sqrt(dot(n, n));
+            gvc_subtract(m->position + 3 * m->vertex[3 * f + (k + 2) % 3],
+                         m->position + 3 * m->vertex[3 * f + (k + 1) % 3], edge[k]);
+        gvc_cross(edge[0], edge[1], n);
+        double twice = sqrt(gvc_dot(n, n));
         for (int k = 0; k < 3; k++) {
             uint32_t p = s->point[m->vertex[3 * f + k]];
             for (int c = 0; c < 3; c++) normal[3 * p + c] += n[c];
             s->area[p] += twice / 6;
             s->diagonal[p] += twice / 6;
-            double cosine = -dot(edge[(k + 1) % 3], edge[(k + 2) % 3]);
+            double cosine = -gvc_dot(edge[(k + 1) % 3], edge[(k + 2) % 3]);
             double cotangent = cosine <= 0                       ? 0
                                : cosine > MOST_COTANGENT * twice ? MOST_COTANGENT
                                                                  : cosine / twice;
@@ -91,7 +78,7 @@ static void measure(surface *s, double time, double *normal) {
                 s->diagonal[s->point[m->vertex[3 * f + (k + end) % 3]]] += s->cotangent[3 * f + k];
     }
     for (size_t v = 0; v < m->vertex_count; v++) {
-        double length = sqrt(dot(normal + 3 * v, normal + 3 * v));
+        double length = sqrt(gvc_dot(normal + 3 * v, normal + 3 * v));
         for (int c = 0; c < 3; c++)
             if (length > 0) normal[3 * v + c] /= length;
         if (s->point[v] != v || !(s->area[v] > 0)) s->diagonal[v] += 1; /* as in diffuse */
@@ -106,12 +93,12 @@ static void integrate_bending(const surface *s, const double *normal, double *be
         const uint32_t *v = m->vertex + 3 * f;
         uint32_t p[3] = {s->point[v[0]], s->point[v[1]], s->point[v[2]]};
         double e1[3], e2[3], d1[3], d2[3];
-        subtract(m->position + 3 * v[1], m->position + 3 * v[0], e1);
-        subtract(m->position + 3 * v[2], m->position + 3 * v[0], e2);
-        subtract(normal + 3 * p[1], normal + 3 * p[0], d1);
-        subtract(normal + 3 * p[2], normal + 3 * p[0], d2);
-        double squared =
-            dot(d1, d1) * dot(e2, e2) - 2 * dot(d1, d2) * dot(e1, e2) + dot(d2, d2) * dot(e1, e1);
+        gvc_subtract(m->position + 3 * v[1], m->position + 3 * v[0], e1);
+        gvc_subtract(m->position + 3 * v[2], m->position + 3 * v[0], e2);
+        gvc_subtract(normal + 3 * p[1], normal + 3 * p[0], d1);
+        gvc_subtract(normal + 3 * p[2], normal + 3 * p[0], d2);
+        double squared = gvc_dot(d1, d1) * gvc_dot(e2, e2) - 2 * gvc_dot(d1, d2) * gvc_dot(e1, e2) +
+                         gvc_dot(d2, d2) * gvc_dot(e1, e1);
         for (int k = 0; k < 3; k++) bending[p[k]] += sqrt(fmax(squared, 0)) / 6;
     }
 }

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "mesh/distance.h"
+#include "mesh/vector.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,19 +13,9 @@
 #define ITERATIONS 12
 #define LEAST_POINTS 12
 
-static double dot(const double a[3], const double b[3]) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double out[3]) {
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 void gvc_rigid_apply(const gvc_rigid *motion, const double point[3], double moved[3]) {
     double p[3] = {point[0], point[1], point[2]};
-    for (int k = 0; k < 3; k++) moved[k] = dot(motion->rotation + 3 * k, p) + motion->shift[k];
+    for (int k = 0; k < 3; k++) moved[k] = gvc_dot(motion->rotation + 3 * k, p) + motion->shift[k];
 }
 
 /* --------------------------------------------------------------------------------------- patch */
@@ -43,7 +34,7 @@ static void vertex_normal(const gvc_halfedges *mesh, uint32_t vertex, double nor
             a[k] = q[k] - p[k];
             b[k] = r[k] - p[k];
         }
-        cross(a, b, n);
+        gvc_cross(a, b, n);
         for (int k = 0; k < 3; k++) normal[k] += n[k];
         h = gvc_turn(mesh, h);
     } while (h != GVC_NONE && h != mesh->outgoing[vertex]);
@@ -65,7 +56,7 @@ gvc_result gvc_patch_take(const gvc_halfedges *mesh, const double *distance, siz
         if (!(distance[v * stride] <= radius)) continue;
         double *normal = patch->normal + 3 * patch->count;
         vertex_normal(mesh, v, normal);
-        double length = sqrt(dot(normal, normal));
+        double length = sqrt(gvc_dot(normal, normal));
         if (!(length > 0)) continue;
         for (int k = 0; k < 3; k++) normal[k] /= length;
         memcpy(patch->point + 3 * patch->count, mesh->position + 3 * (size_t)v, 3 * sizeof(double));
@@ -92,7 +83,7 @@ typedef struct equations {
 static void add_plane(equations *e, const double arm[3], const double normal[3], double offset,
                       double weight) {
     double row[6];
-    cross(arm, normal, row);
+    gvc_cross(arm, normal, row);
     memcpy(row + 3, normal, 3 * sizeof *normal);
     for (int i = 0; i < 6; i++) {
         for (int j = 0; j < 6; j++) e->matrix[i][j] += weight * row[i] * row[j];
@@ -130,7 +121,7 @@ static bool solve(equations *e, double x[6]) {
 
 /* Rodrigues' rotation about `turn` by its length. */
 static void rotation_of(const double turn[3], double rotation[9]) {
-    double angle = sqrt(dot(turn, turn));
+    double angle = sqrt(gvc_dot(turn, turn));
     double s = angle > 1e-12 ? sin(angle) / angle : 1;
     double c = angle > 1e-12 ? (1 - cos(angle)) / (angle * angle) : 0.5;
     const double skew[9] = {0, -turn[2], turn[1], turn[2], 0, -turn[0], -turn[1], turn[0], 0};
@@ -180,8 +171,8 @@ static void face_normal(const gvc_mesh *mesh, uint32_t face, double normal[3]) {
         a[k] = mesh->position[3 * (size_t)v[1] + k] - p;
         b[k] = mesh->position[3 * (size_t)v[2] + k] - p;
     }
-    cross(a, b, normal);
-    double length = sqrt(dot(normal, normal));
+    gvc_cross(a, b, normal);
+    double length = sqrt(gvc_dot(normal, normal));
     for (int k = 0; k < 3; k++) normal[k] = length > 0 ? normal[k] / length : 0;
 }
 
@@ -200,7 +191,7 @@ static void gather(const gvc_patch *patch, const gvc_mesh *mesh, const gvc_bvh *
             arm[k] = p[k] - center[k];
             away[k] = found.point[k] - p[k];
         }
-        add_plane(e, arm, plane, dot(plane, away), patch->area[i]);
+        add_plane(e, arm, plane, gvc_dot(plane, away), patch->area[i]);
     }
 }
 

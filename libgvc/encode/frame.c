@@ -32,6 +32,12 @@ void gvc_frame_free(gvc_frame_work *work) {
     gvc_cut_graph_free(&work->graph);
 }
 
+gvc_result gvc_frame_uncut(gvc_frame_work *work, gvc_error *error) {
+    gvc_cut_graph_free(&work->graph);
+    gvc_halfedges_free(&work->halfedges);
+    return gvc_halfedges_build(work->mesh, 0, &work->halfedges, error);
+}
+
 gvc_result gvc_frame_image(const gvc_frame_work *work, const gvc_side_table *sides,
                            const gvc_weld *weld, const gvc_image_options *options, double *image,
                            gvc_parameterize_report *report, gvc_error *error) {

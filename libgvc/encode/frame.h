@@ -21,6 +21,8 @@ typedef struct gvc_frame_work {
 gvc_result gvc_frame_analyse(gvc_frame_work *work, const gvc_source *source, bool weld,
                              gvc_error *error);
 void gvc_frame_free(gvc_frame_work *work);
+/** Makes the frame as it was before a cut was tried: mesh not refined, no graph. */
+gvc_result gvc_frame_uncut(gvc_frame_work *work, gvc_error *error);
 
 /** How a frame's surface becomes an image. */
 typedef struct gvc_image_options {

@@ -2,6 +2,7 @@
 /** @file bvh.c  Bounding volume hierarchy over the faces of a mesh, for exact closest points. */
 #include "base/memory.h"
 #include "mesh/distance.h"
+#include "mesh/vector.h"
 
 #include <float.h>
 #include <math.h>
@@ -36,22 +37,6 @@ struct gvc_bvh {
     double *corner; /* nine coordinates per face, in leaf order */
 };
 
-/* ----------------------------------------------------------------------------------- vectors */
-
-static double dot(const double a[3], const double b[3]) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void subtract(const double a[3], const double b[3], double difference[3]) {
-    for (int k = 0; k < 3; k++) difference[k] = a[k] - b[k];
-}
-
-static void cross(const double a[3], const double b[3], double product[3]) {
-    product[0] = a[1] * b[2] - a[2] * b[1];
-    product[1] = a[2] * b[0] - a[0] * b[2];
-    product[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 /* ------------------------------------------------------------------------------------- boxes */
 
 static box empty_box(void) {
@@ -68,7 +53,7 @@ static void box_add(box *bounds, const box *other) {
 /* Half of the surface area. */
 static double box_area(const box *bounds) {
     double e[3];
-    subtract(bounds->maximum, bounds->minimum, e);
+    gvc_subtract(bounds->maximum, bounds->minimum, e);
     return e[0] * e[1] + e[1] * e[2] + e[2] * e[0];
 }
 
@@ -269,14 +254,14 @@ static void try_edge(const double point[3], const double *corner, int i, gvc_clo
     int j = (i + 1) % 3;
     const double *a = corner + 3 * i, *b = corner + 3 * j;
     double along[3], to[3], at[3], off[3];
-    subtract(b, a, along);
-    subtract(point, a, to);
-    double length = dot(along, along), t = length > 0 ? dot(along, to) / length : 0;
+    gvc_subtract(b, a, along);
+    gvc_subtract(point, a, to);
+    double length = gvc_dot(along, along), t = length > 0 ? gvc_dot(along, to) / length : 0;
     t = t > 0 ? (t < 1 ? t : 1) : 0;
     /* t = 1 must give b itself, not a + (b - a), which may differ in the last place. */
     for (int k = 0; k < 3; k++) at[k] = t < 1 ? a[k] + t * along[k] : b[k];
-    subtract(point, at, off);
-    double found = dot(off, off);
+    gvc_subtract(point, at, off);
+    double found = gvc_dot(off, off);
     if (!(found < *squared)) return;
     *squared = found;
     for (int k = 0; k < 3; k++) closest->barycentric[k] = 0, closest->point[k] = at[k];
@@ -293,16 +278,16 @@ static void try_edge(const double point[3], const double *corner, int i, gvc_clo
 static double closest_on_triangle(const double point[3], const double *corner,
                                   gvc_closest *closest) {
     double ab[3], ac[3], ap[3], normal[3], part[3], weight[3];
-    subtract(corner + 3, corner, ab);
-    subtract(corner + 6, corner, ac);
-    subtract(point, corner, ap);
-    cross(ab, ac, normal);
-    double squared = HUGE_VAL, area = dot(normal, normal);
-    bool sliver = !(area > SLIVER * dot(ab, ab) * dot(ac, ac));
-    cross(ap, ac, part);
-    weight[1] = dot(normal, part);
-    cross(ab, ap, part);
-    weight[2] = dot(normal, part);
+    gvc_subtract(corner + 3, corner, ab);
+    gvc_subtract(corner + 6, corner, ac);
+    gvc_subtract(point, corner, ap);
+    gvc_cross(ab, ac, normal);
+    double squared = HUGE_VAL, area = gvc_dot(normal, normal);
+    bool sliver = !(area > SLIVER * gvc_dot(ab, ab) * gvc_dot(ac, ac));
+    gvc_cross(ap, ac, part);
+    weight[1] = gvc_dot(normal, part);
+    gvc_cross(ab, ap, part);
+    weight[2] = gvc_dot(normal, part);
     weight[0] = area - weight[1] - weight[2];
 
     if (!sliver && weight[0] >= 0 && weight[1] >= 0 && weight[2] >= 0) {
@@ -312,8 +297,8 @@ static double closest_on_triangle(const double point[3], const double *corner,
             closest->point[k] =
                 corner[k] + closest->barycentric[1] * ab[k] + closest->barycentric[2] * ac[k];
         }
-        subtract(point, closest->point, off);
-        return dot(off, off);
+        gvc_subtract(point, closest->point, off);
+        return gvc_dot(off, off);
     }
     if (sliver || weight[2] < 0) try_edge(point, corner, 0, closest, &squared);
     if (sliver || weight[0] < 0) try_edge(point, corner, 1, closest, &squared);
@@ -323,10 +308,10 @@ static double closest_on_triangle(const double point[3], const double *corner,
 
 static bool faces_away(const double *corner, const double normal[3]) {
     double ab[3], ac[3], own[3];
-    subtract(corner + 3, corner, ab);
-    subtract(corner + 6, corner, ac);
-    cross(ab, ac, own);
-    return dot(own, normal) < 0;
+    gvc_subtract(corner + 3, corner, ab);
+    gvc_subtract(corner + 6, corner, ac);
+    gvc_cross(ab, ac, own);
+    return gvc_dot(own, normal) < 0;
 }
 
 /* ------------------------------------------------------------------------------------ search */
