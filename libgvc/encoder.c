@@ -8,6 +8,8 @@
  */
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "chart/sample.h"
+#include "encode/batch.h"
 #include "encode/cut.h"
 #include "encode/group.h"
 #include "encode/rate.h"
@@ -17,7 +19,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BATCH 16
 #define BLOCK 16 /* pictures are padded to whole macroblocks, so that no block spans two planes */
 #define FIRST_CRF 8.0
 #define SIZE_FRAMES 3
@@ -32,13 +33,11 @@ typedef struct encoder {
     gvc_scan_frame *facts;
     gvc_encode_report report;
 
-    gvc_frame_work work[BATCH];
-    uint64_t batch_first;
-    size_t batch_count;
-
+    gvc_batch batch;
     gvc_tracker *tracker;
     gvc_segment segment;
-    uint32_t size; /* of all images; 0 until chosen */
+    double *followed; /* point samples of the last frame of the layout; NULL: there is none yet */
+    uint32_t size;    /* of all images; 0 until chosen */
     gvc_group group;
     gvc_writer *writer; /* NULL until the first group is coded */
     double crf;         /* of the last group: guess for the next */
@@ -181,7 +180,8 @@ static gvc_result choose_size(encoder *e, size_t first, size_t end, gvc_error *e
     size_context context = {.e = e};
     size_t frames = end - first < SIZE_FRAMES ? end - first : SIZE_FRAMES;
     for (size_t i = 0; i < frames; i++) {
-        context.frame[i] = &e->work[first + (end - 1 - first) * i / (frames > 1 ? frames - 1 : 1)];
+        context.frame[i] =
+            &e->batch.work[first + (end - 1 - first) * i / (frames > 1 ? frames - 1 : 1)];
     }
     double best = INFINITY;
     for (size_t i = 0; i < sizeof candidate / sizeof *candidate; i++) {
@@ -210,7 +210,13 @@ static gvc_result settle_size(encoder *e, size_t first, size_t end, gvc_error *e
     uint32_t padded = (e->size + BLOCK - 1) / BLOCK * BLOCK;
     gvc_picture_layout layout = {padded, padded};
     GVC_TRY(gvc_group_create(e->options.gop, layout, &e->group, error));
-    return gvc_segment_resize(&e->segment, &e->work[first], e->size, error);
+    return gvc_segment_resize(&e->segment, &e->batch.work[first], e->size, error);
+}
+
+/* Another layout shows the surface elsewhere. */
+static void follow_no_more(encoder *e) {
+    free(e->followed);
+    e->followed = NULL;
 }
 
 /* A group begins with a keyframe anyway, so a better layout costs nothing there: lengths have
@@ -233,6 +239,7 @@ static gvc_result refresh_layout(encoder *e, const gvc_frame_work *work, gvc_err
         next.number = e->report.segment_count++;
         e->segment = next;
         next = old;
+        follow_no_more(e);
     }
     gvc_segment_free(&next);
     return result;
@@ -240,42 +247,69 @@ static gvc_result refresh_layout(encoder *e, const gvc_frame_work *work, gvc_err
 
 /* -------------------------------------------------------------------------------------- batches */
 
-static gvc_result analyse_one(void *user, size_t index, gvc_error *error) {
-    encoder *e = user;
-    e->work[index] = (gvc_frame_work){.number = e->batch_first + index};
-    return gvc_frame_analyse(&e->work[index], e->source, e->options.weld, error);
-}
-
 typedef struct image_context {
     encoder *e;
-    size_t first;           /* in the batch */
-    bool unfit[BATCH];      /* no chart without folds was found */
-    gvc_error error[BATCH]; /* why */
+    const gvc_frame_work *work; /* the first of them */
+    size_t count;
+    gvc_chart chart[GVC_BATCH];
+    double *image[GVC_BATCH];
+    bool unfit[GVC_BATCH];      /* no chart without folds was found */
+    gvc_error error[GVC_BATCH]; /* why */
 } image_context;
 
-static gvc_result image_one(void *user, size_t index, gvc_error *error) {
-    image_context *context = user;
-    encoder *e = context->e;
+static void free_images(image_context *c) {
+    for (size_t i = 0; i < c->count; i++) {
+        gvc_chart_free(&c->chart[i]);
+        free(c->image[i]);
+    }
+}
+
+static gvc_result chart_one(void *user, size_t index, gvc_error *error) {
+    image_context *c = user;
+    const gvc_segment *segment = &c->e->segment;
+    gvc_result result = gvc_chart_make(&c->work[index], &segment->sides, &segment->image_options,
+                                       &c->chart[index], &c->error[index]);
+    c->unfit[index] = result == GVC_ERROR_MESH;
+    if (result == GVC_OK || c->unfit[index]) return GVC_OK;
+    if (error) *error = c->error[index];
+    return result;
+}
+
+/* Point samples, in the order of the frames: each chart follows the one before. */
+static gvc_result sample_charts(image_context *c, size_t count, gvc_error *error) {
+    encoder *e = c->e;
     const gvc_segment *segment = &e->segment;
     size_t samples = (size_t)3 * e->size * e->size;
+    for (size_t i = 0; i < count; i++) {
+        c->image[i] = gvc_alloc(samples, sizeof *c->image[i]);
+        if (!c->image[i]) return gvc_fail_memory(error);
+        if (e->followed) {
+            GVC_TRY(gvc_chart_follow(&c->work[i], e->size, e->followed, &segment->image_options,
+                                     &c->chart[i], error));
+        } else {
+            e->followed = gvc_alloc(samples, sizeof *e->followed);
+            if (!e->followed) return gvc_fail_memory(error);
+        }
+        gvc_result result = gvc_sample_points(&c->chart[i].disk, c->chart[i].uv, &segment->weld,
+                                              c->image[i], error);
+        GVC_TRY(gvc_at_frame(error, result, (int64_t)c->work[i].number));
+        memcpy(e->followed, c->image[i], samples * sizeof *e->followed);
+    }
+    return GVC_OK;
+}
+
+static gvc_result fit_one(void *user, size_t index, gvc_error *error) {
+    image_context *c = user;
+    encoder *e = c->e;
+    const gvc_segment *segment = &e->segment;
     size_t picture = (size_t)3 * e->group.layout.width * e->group.layout.plane_height;
-    double *image = gvc_alloc(samples, sizeof *image);
     uint16_t *luma = gvc_alloc(picture, sizeof *luma);
-    gvc_result result = image && luma ? GVC_OK : gvc_fail_memory(error);
-    if (result == GVC_OK) {
-        result = gvc_frame_image(&e->work[context->first + index], &segment->sides, &segment->weld,
-                                 &segment->image_options, image, NULL, &context->error[index]);
-        context->unfit[index] = result == GVC_ERROR_MESH;
-        if (result != GVC_OK && result != GVC_ERROR_MESH && error) *error = context->error[index];
-    }
-    if (result == GVC_OK) {
-        gvc_segment_quantise(segment, image, e->group.layout, luma);
-        e->group.frame[e->group.count + index].luma = luma;
-        luma = NULL;
-    }
-    free(image);
-    free(luma);
-    return result == GVC_ERROR_MESH ? GVC_OK : result;
+    if (!luma) return gvc_fail_memory(error);
+    e->group.frame[e->group.count + index].luma = luma;
+    GVC_TRY(gvc_chart_fit(&c->work[index], &c->chart[index], &segment->weld,
+                          &segment->image_options, c->image[index], error));
+    gvc_segment_quantise(segment, c->image[index], e->group.layout, luma);
+    return GVC_OK;
 }
 
 static void drop_images(gvc_group *group, size_t from, size_t end) {
@@ -289,26 +323,31 @@ static void drop_images(gvc_group *group, size_t from, size_t end) {
  * Stops before the first that has no chart without folds, and sets *end to it. */
 static gvc_result add_images(encoder *e, size_t first, size_t *end, gvc_error *error) {
     gvc_group *group = &e->group;
-    image_context context = {.e = e, .first = first};
     size_t count = *end - first, good = 0;
+    image_context context = {.e = e, .work = &e->batch.work[first], .count = count};
     if (group->count == 0) {
         group->segment = &e->segment;
-        group->first_frame = e->work[first].number;
-        GVC_TRY(gvc_segment_shape(&e->segment, &e->work[first].graph, &group->shape, error));
+        group->first_frame = e->batch.work[first].number;
+        GVC_TRY(gvc_segment_shape(&e->segment, &e->batch.work[first].graph, &group->shape, error));
     }
-    gvc_result result = gvc_parallel_for(e->options.threads, count, image_one, &context, error);
+    gvc_result result = gvc_parallel_for(e->options.threads, count, chart_one, &context, error);
+    while (result == GVC_OK && good < count && !context.unfit[good]) good++;
+    if (result == GVC_OK) result = sample_charts(&context, good, error);
     if (result == GVC_OK) {
-        while (good < count && !context.unfit[good]) good++;
+        result = gvc_parallel_for(e->options.threads, good, fit_one, &context, error);
     }
-    drop_images(group, group->count + good, group->count + count);
-    if (result != GVC_OK) return result;
-    if (good == 0 && e->segment.first_frame == e->work[first].number) {
+    free_images(&context);
+    if (result != GVC_OK) {
+        drop_images(group, group->count, group->count + good);
+        return result;
+    }
+    if (good == 0 && e->segment.first_frame == e->batch.work[first].number) {
         /* a new segment is all that could help, and this is one */
         if (error) *error = context.error[0];
         return GVC_ERROR_MESH;
     }
     group->count += good;
-    for (size_t i = first; i < first + good; i++) gvc_frame_free(&e->work[i]);
+    for (size_t i = first; i < first + good; i++) gvc_frame_free(&e->batch.work[i]);
     *end = first + good;
     return GVC_OK;
 }
@@ -318,53 +357,53 @@ static gvc_result add_images(encoder *e, size_t first, size_t *end, gvc_error *e
 static gvc_result encode_run(encoder *e, size_t first, size_t *end, gvc_error *error) {
     const gvc_cutter cutter = cutter_of(e);
     bool continues;
-    GVC_TRY(gvc_cut_follow(&cutter, &e->segment, &e->work[first], &continues, error));
+    GVC_TRY(gvc_cut_follow(&cutter, &e->segment, &e->batch.work[first], &continues, error));
     if (!continues) {
         GVC_TRY(flush_group(e, error));
-        GVC_TRY(
-            gvc_cut_begin(&cutter, e->report.segment_count, &e->work[first], &e->segment, error));
+        follow_no_more(e);
+        GVC_TRY(gvc_cut_begin(&cutter, e->report.segment_count, &e->batch.work[first], &e->segment,
+                              error));
         e->report.segment_count++;
     } else if (e->group.count == 0) {
-        GVC_TRY(refresh_layout(e, &e->work[first], error));
+        GVC_TRY(refresh_layout(e, &e->batch.work[first], error));
     }
     size_t room = e->options.gop - e->group.count, cut = first + 1;
-    while (cut < e->batch_count && cut - first < room) {
-        GVC_TRY(gvc_cut_follow(&cutter, &e->segment, &e->work[cut], &continues, error));
+    while (cut < e->batch.count && cut - first < room) {
+        GVC_TRY(gvc_cut_follow(&cutter, &e->segment, &e->batch.work[cut], &continues, error));
         if (!continues) break;
         cut++;
     }
-    bool broken = cut < e->batch_count && cut - first < room;
+    bool broken = cut < e->batch.count && cut - first < room;
     *end = cut;
     if (e->size == 0) GVC_TRY(settle_size(e, first, cut, error));
     GVC_TRY(add_images(e, first, end, error));
-    for (size_t i = *end; i < cut; i++) GVC_TRY(gvc_frame_uncut(&e->work[i], error));
+    for (size_t i = *end; i < cut; i++) GVC_TRY(gvc_frame_uncut(&e->batch.work[i], error));
     if (broken || *end < cut) {
         GVC_TRY(flush_group(e, error));
-        e->segment.end_frame = e->work[*end].number; /* it starts a segment */
+        e->segment.end_frame = e->batch.work[*end].number; /* it starts a segment */
     }
     return e->group.count == e->options.gop ? flush_group(e, error) : GVC_OK;
 }
 
-static gvc_result encode_batch(encoder *e, gvc_error *error) {
-    gvc_result result = gvc_parallel_for(e->options.threads, e->batch_count, analyse_one, e, error);
+static gvc_result encode_batch(encoder *e, uint64_t first, size_t count, gvc_error *error) {
     size_t next = 0;
-    while (result == GVC_OK && next < e->batch_count) {
+    GVC_TRY(gvc_batch_analyse(&e->batch, e->source, e->options.weld, e->options.threads, first,
+                              count, error));
+    while (next < e->batch.count) {
         /* nothing new is done, but this is where a long group can be cancelled */
-        result = report_progress(e, e->report.frame_count, error);
-        if (result == GVC_OK) result = encode_run(e, next, &next, error);
+        GVC_TRY(report_progress(e, e->report.frame_count, error));
+        GVC_TRY(encode_run(e, next, &next, error));
     }
-    for (size_t i = 0; i < e->batch_count; i++) gvc_frame_free(&e->work[i]);
-    return result;
+    return GVC_OK;
 }
 
 static gvc_result encode_all(encoder *e, gvc_error *error) {
     uint64_t total = e->source->frame_count;
     GVC_TRY(gvc_scan(e->source, &e->options, e->facts, error));
     GVC_TRY(report_progress(e, 0, error));
-    for (e->batch_first = 0; e->batch_first < total; e->batch_first += e->batch_count) {
-        uint64_t left = total - e->batch_first;
-        e->batch_count = left < BATCH ? (size_t)left : BATCH;
-        GVC_TRY(encode_batch(e, error));
+    for (uint64_t first = 0; first < total; first += GVC_BATCH) {
+        uint64_t left = total - first;
+        GVC_TRY(encode_batch(e, first, left < GVC_BATCH ? (size_t)left : GVC_BATCH, error));
     }
     GVC_TRY(flush_group(e, error));
     return gvc_writer_finish(e->writer, error);
@@ -391,6 +430,8 @@ gvc_result gvc_encode(const gvc_source *source, const gvc_sink *sink,
         report->mean_crf /= (double)report->frame_count;
     }
     gvc_writer_destroy(&e->writer);
+    gvc_batch_free(&e->batch);
+    follow_no_more(e);
     gvc_group_free(&e->group);
     gvc_segment_free(&e->segment);
     gvc_tracker_destroy(&e->tracker);

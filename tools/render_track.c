@@ -3,12 +3,10 @@
 #include "render_track.h"
 
 #include "base/memory.h"
-#include "base/parallel.h"
+#include "encode/batch.h"
 #include "encode/cut.h"
 
 #include <stdlib.h>
-
-#define BATCH 8 /* frames analysed in parallel */
 
 typedef struct follower {
     const gvc_source *source;
@@ -22,8 +20,7 @@ typedef struct follower {
     gvc_segment segment;
     uint64_t segment_count;
 
-    gvc_frame_work work[BATCH];
-    uint64_t batch_first;
+    gvc_batch batch;
 } follower;
 
 static gvc_result follow(follower *f, gvc_frame_work *work, gvc_error *error) {
@@ -45,36 +42,26 @@ static gvc_result follow(follower *f, gvc_frame_work *work, gvc_error *error) {
     return f->hooks->picture(f->hooks->user, &tracked, error);
 }
 
-static gvc_result analyse_one(void *user, size_t index, gvc_error *error) {
-    follower *f = user;
-    f->work[index] = (gvc_frame_work){.number = f->batch_first + index};
-    return gvc_frame_analyse(&f->work[index], f->source, f->options.weld, error);
-}
-
-static gvc_result follow_batch(follower *f, size_t count, gvc_error *error) {
-    for (size_t i = 0; i < BATCH; i++) f->work[i] = (gvc_frame_work){0};
-    gvc_result result = gvc_parallel_for(f->options.threads, count, analyse_one, f, error);
+static gvc_result follow_batch(follower *f, uint64_t first, size_t count, gvc_error *error) {
+    GVC_TRY(gvc_batch_analyse(&f->batch, f->source, f->options.weld, f->options.threads, first,
+                              count, error));
     for (size_t i = 0; i < count; i++) {
-        if (result == GVC_OK) {
-            result = follow(f, &f->work[i], error);
-            result = gvc_at_frame(error, result, (int64_t)(f->batch_first + i));
-        }
-        gvc_frame_free(&f->work[i]);
+        gvc_result result = follow(f, &f->batch.work[i], error);
+        if (result != GVC_OK) return gvc_at_frame(error, result, (int64_t)(first + i));
     }
-    return result;
+    return GVC_OK;
 }
 
 static gvc_result follow_all(follower *f, gvc_error *error) {
     uint64_t first = f->frame[0], end = f->frame[f->count - 1] + 1;
     GVC_TRY(gvc_scan(f->source, &f->options, f->facts, error));
     while (first > 0 && f->facts[first - 1].genus == f->facts[first].genus) first--;
-    for (f->batch_first = first; f->batch_first < end; f->batch_first += BATCH) {
-        size_t count = end - f->batch_first < BATCH ? (size_t)(end - f->batch_first) : BATCH;
-        if (!f->hooks->progress(f->hooks->user, GVC_STAGE_ENCODE, f->batch_first - first,
-                                end - first)) {
+    for (uint64_t frame = first; frame < end; frame += GVC_BATCH) {
+        size_t count = end - frame < GVC_BATCH ? (size_t)(end - frame) : GVC_BATCH;
+        if (!f->hooks->progress(f->hooks->user, GVC_STAGE_ENCODE, frame - first, end - first)) {
             return gvc_fail(error, GVC_ERROR_CANCELLED, "interrupted");
         }
-        GVC_TRY(follow_batch(f, count, error));
+        GVC_TRY(follow_batch(f, frame, count, error));
     }
     return GVC_OK;
 }
@@ -98,6 +85,7 @@ gvc_result render_track(const gvc_source *source, bool weld, unsigned threads,
     gvc_result result = f->facts ? GVC_OK : gvc_fail_memory(error);
     if (result == GVC_OK) result = gvc_tracker_create(&tracking, &f->tracker, error);
     if (result == GVC_OK) result = follow_all(f, error);
+    gvc_batch_free(&f->batch);
     gvc_segment_free(&f->segment);
     gvc_tracker_destroy(&f->tracker);
     free(f->facts);

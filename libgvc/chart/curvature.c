@@ -3,7 +3,7 @@
 #include "chart/curvature.h"
 
 #include "base/memory.h"
-#include "chart/conjugate_gradient.h"
+#include "base/conjugate_gradient.h"
 #include "mesh/vector.h"
 
 #include <math.h>

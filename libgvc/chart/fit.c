@@ -10,7 +10,7 @@
 #include "chart/sample.h"
 
 #include "base/memory.h"
-#include "chart/conjugate_gradient.h"
+#include "base/conjugate_gradient.h"
 
 #include <math.h>
 #include <stdlib.h>

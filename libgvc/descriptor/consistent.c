@@ -16,8 +16,9 @@ typedef struct comparison {
     double *attribute, *point; /* room for one of each */
 } comparison;
 
-/* Coordinates hold position at half weight; three times that is what it weighs here. */
-static const double position_weight = 3;
+/* Coordinates hold position at a high weight, meant for points whose motion is known; this share of
+ * it is what it weighs here. */
+static const double position_weight = 0.15;
 
 static double misfit(comparison *c, const gvc_surface_point *at) {
     double position[3], sum = 0, square = 0;

@@ -12,7 +12,7 @@
 typedef struct gvc_coordinates {
     size_t first;     /**< attributes the mesh had before */
     size_t count;     /**< channels added: one per feature */
-    size_t dimension; /**< count + 3: distances, then position at half weight */
+    size_t dimension; /**< count + 3: distances, then weighted position */
     double scale;     /**< divides distances */
     double diagonal;  /**< divides positions */
 } gvc_coordinates;

@@ -16,7 +16,7 @@ static const double node_reach = 0.02;
  * this part of the length of the path. And where the exponents level off. */
 static const double usual_deviation = 0.05, handle_deviation = 0.1, greatest_exponent = 50;
 /* A path is given up if its mean distance to the one before is over this. */
-static const double greatest_departure = 0.15;
+static const double greatest_departure = 1;
 
 void gvc_link_free(gvc_link *link) {
     free(link->junction);

@@ -5,7 +5,8 @@
  * what the terms E_p and E_d (Eqs. 7 and 8) compare.
  *
  * The coordinates of a point are its normalised geodesic distances to all features, and its
- * position relative to the diagonal at half weight, which resolves what symmetry leaves open.
+ * position relative to the diagonal, moved along with the surface, at a high weight: it resolves
+ * what symmetry leaves open, and is the more exact (docs/adr/0012).
  */
 #ifndef GVC_DESCRIPTOR_PRIOR_H
 #define GVC_DESCRIPTOR_PRIOR_H

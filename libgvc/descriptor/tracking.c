@@ -11,7 +11,6 @@
 #include "descriptor/handles.h"
 #include "descriptor/link.h"
 #include "descriptor/match.h"
-#include "descriptor/rigid.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -22,11 +21,9 @@ static const double match_gate = 0.2;
 /* nor if its normalised geodesic distance to another one changed by more than this. */
 static const double shape_gate = 0.25;
 
-/* The surface round the root whose motion is followed: so much of the greatest geodesic distance,
- */
-static const double patch_radius = 0.18;
-/* and no further than this from one frame to the next, in diagonals. */
-static const double patch_gate = 0.06;
+/* How far a tip or node goes from where the warp takes it to where this frame alone would put it:
+ * the warp is some ten times as exact, but its errors add up. */
+static const double renewal = 0.1;
 
 struct gvc_tracker {
     gvc_tracker_options options;
@@ -44,7 +41,6 @@ struct gvc_tracker {
     uint32_t root;      /* which of them is the root */
     double *base_point; /* their coordinates: distances as in the first frame, so that nothing
                            drifts along with small errors; positions as last seen */
-    gvc_patch patch;    /* the surface round the root as last seen */
     size_t link_count;
     gvc_link *link;
     size_t side_count; /* the border of the opened surface */
@@ -52,7 +48,7 @@ struct gvc_tracker {
 };
 
 void gvc_tracker_options_init(gvc_tracker_options *options) {
-    *options = (gvc_tracker_options){.prior_weight = 1, .shortest_weight = 0.1, .lambda = 0.5};
+    *options = (gvc_tracker_options){.prior_weight = 1, .shortest_weight = 0.05, .lambda = 0.95};
 }
 
 gvc_result gvc_tracker_create(const gvc_tracker_options *options, gvc_tracker **tracker,
@@ -70,7 +66,6 @@ static void forget(gvc_tracker *t) {
     free(t->tip);
     free(t->tip_point);
     free(t->base_point);
-    gvc_patch_free(&t->patch);
     free(t->link);
     free(t->side);
     *t = (gvc_tracker){.options = t->options, .finder = t->finder};
@@ -89,7 +84,7 @@ typedef struct workspace {
     gvc_routing routing;
     uint32_t *tip; /* vertices */
     uint32_t *base;
-    gvc_rigid motion; /* of the surface round the root since the frame before */
+    const gvc_warp *warp; /* from the frame before; NULL in the first one, or if nothing moved */
 } workspace;
 
 static void workspace_free(workspace *w) {
@@ -114,11 +109,11 @@ static gvc_result attach_coordinates(workspace *w, const gvc_tracker *t,
     return GVC_OK;
 }
 
-/* Takes down where tips and initial nodes are, and the surface round the root. */
-static gvc_result remember_points(gvc_tracker *t, const workspace *w, gvc_error *error) {
+/* Takes down where tips and initial nodes are. */
+static void remember_points(gvc_tracker *t, const workspace *w) {
     const gvc_routing *r = &w->routing;
     const gvc_coordinates *c = &r->coordinates;
-    size_t n = c->dimension, channels = r->mesh->attribute_count;
+    size_t n = c->dimension;
     for (size_t i = 0; i < t->tip_count; i++) {
         gvc_coordinates_of_vertex(r->mesh, c, w->tip[i], t->tip_point + i * n);
         t->tip[i].vertex = w->tip[i];
@@ -133,9 +128,6 @@ static gvc_result remember_points(gvc_tracker *t, const workspace *w, gvc_error 
             gvc_coordinates_place(c, r->mesh->position + 3 * (size_t)w->base[i], known);
         }
     }
-    gvc_patch_free(&t->patch);
-    return gvc_patch_take(r->mesh, r->mesh->attribute + c->first + t->tip_count, channels,
-                          patch_radius, &t->patch, error);
 }
 
 /* Walks the border of the opened surface; `*disk` tells whether that is one disk. `*side` is freed
@@ -294,7 +286,7 @@ gvc_result gvc_tracker_start(gvc_tracker *t, const gvc_features *features, size_
                      "the cut graph has %zu nodes, %zu edges and a border of %zu sides, which is "
                      "no disk on a surface of genus %zu",
                      graph->node_count, graph->edge_count, t->side_count, t->genus));
-    GVC_CHECK(remember_points(t, &w, error));
+    remember_points(t, &w);
     t->started = true;
 cleanup:
     workspace_free(&w);
@@ -307,15 +299,33 @@ cleanup:
 
 /* --------------------------------------------------------------------------- frames that follow */
 
+/* Moves a feature that was at `before`, and would be at `*vertex` by this frame alone, to where the
+ * surface that was there is now. */
+static gvc_result steady(workspace *w, const double before[3], uint32_t *vertex, gvc_error *error) {
+    gvc_halfedges *mesh = w->routing.mesh;
+    double moved[3];
+    if (!w->warp) return GVC_OK;
+    gvc_warp_point(w->warp, before, moved);
+    for (size_t k = 0; k < 3; k++)
+        moved[k] += renewal * (mesh->position[3 * (size_t)*vertex + k] - moved[k]);
+    return gvc_warp_pin(w->warp, mesh, moved, vertex, error);
+}
+
 /* Finds the tips: matched extrema first, the made up ones by geodesic consistency to those. */
 static gvc_result find_tips(gvc_tracker *t, const gvc_features *features, workspace *w, bool *kept,
                             gvc_error *error) {
     gvc_routing *r = &w->routing;
+    double before[3];
+    for (size_t i = 0; w->warp && i < t->matched_count; i++)
+        gvc_warp_point(w->warp, t->tip[i].position, t->tip[i].position);
     GVC_TRY(gvc_match_extrema(t->tip, t->matched_count, features, match_gate, w->tip, kept, error));
     if (!*kept) return GVC_OK;
     for (size_t i = 0; i < t->matched_count; i++) {
         t->tip[i] = features->extremum[w->tip[i]];
         w->tip[i] = t->tip[i].vertex;
+        gvc_coordinates_position(&r->coordinates, t->tip_point + i * r->coordinates.dimension,
+                                 before);
+        GVC_TRY(steady(w, before, &w->tip[i], error));
     }
     GVC_TRY(gvc_coordinates_measure(r->mesh, &r->coordinates, 0, w->tip, t->matched_count, error));
     for (size_t i = t->matched_count; i < t->tip_count; i++) {
@@ -324,6 +334,8 @@ static gvc_result find_tips(gvc_tracker *t, const gvc_features *features, worksp
                                       error));
         *kept = w->tip[i] != GVC_NONE;
         if (!*kept) return GVC_OK;
+        gvc_coordinates_position(&r->coordinates, wanted, before);
+        GVC_TRY(steady(w, before, &w->tip[i], error));
         GVC_TRY(gvc_coordinates_measure(r->mesh, &r->coordinates, i, &w->tip[i], 1, error));
     }
     return GVC_OK;
@@ -342,19 +354,29 @@ static bool same_shape(const gvc_tracker *t, const workspace *w) {
     return true;
 }
 
-/* Moves the position part of a point's coordinates. */
-static void move_point(const gvc_coordinates *c, const gvc_rigid *motion, double *point) {
+/* What moves with the surface from the frame before to this one. */
+typedef struct motion {
+    const gvc_coordinates *coordinates;
+    const gvc_warp *warp;
+} motion;
+
+/* Moves the position part of a point's coordinates with the surface. */
+static void follow(const void *context, double *point) {
+    const motion *m = context;
     double position[3];
-    gvc_coordinates_position(c, point, position);
-    gvc_rigid_apply(motion, position, position);
-    gvc_coordinates_place(c, position, point);
+    if (!m->warp) return;
+    gvc_coordinates_position(m->coordinates, point, position);
+    gvc_warp_point(m->warp, position, position);
+    gvc_coordinates_place(m->coordinates, position, point);
 }
 
 /* Finds the nodes of the initial graph by geodesic consistency, the root first: near where the
- * motion of the surface round the root takes them. */
+ * motion of the surface takes them. */
 static gvc_result find_base(gvc_tracker *t, workspace *w, bool *kept, gvc_error *error) {
     gvc_routing *r = &w->routing;
     size_t n = r->coordinates.dimension, taken_count = 0;
+    const motion m = {&r->coordinates, w->warp};
+    double before[3];
     uint32_t *taken = gvc_alloc(t->tip_count + t->base_count, sizeof *taken);
     double *wanted = gvc_alloc(n, sizeof *wanted);
     gvc_result result = taken && wanted ? GVC_OK : gvc_fail_memory(error);
@@ -364,12 +386,15 @@ static gvc_result find_base(gvc_tracker *t, workspace *w, bool *kept, gvc_error 
         size_t node = i == 0 ? t->root : i <= t->root ? i - 1 : i;
         if (result != GVC_OK) break;
         memcpy(wanted, t->base_point + node * n, n * sizeof *wanted);
-        if (wanted[t->tip_count] <= patch_radius) move_point(&r->coordinates, &w->motion, wanted);
+        follow(&m, wanted);
         result = gvc_consistent_vertex(r->mesh, &r->coordinates, t->tip_count + (i > 0), wanted,
                                        taken, taken_count, &w->base[node], error);
         if (result != GVC_OK) break;
         *kept = w->base[node] != GVC_NONE;
         if (!*kept) break;
+        gvc_coordinates_position(&r->coordinates, t->base_point + node * n, before);
+        result = steady(w, before, &w->base[node], error);
+        if (result != GVC_OK) break;
         taken[taken_count++] = w->base[node];
         if (i == 0)
             result = gvc_coordinates_measure(r->mesh, &r->coordinates, t->tip_count, &w->base[node],
@@ -380,51 +405,14 @@ static gvc_result find_base(gvc_tracker *t, workspace *w, bool *kept, gvc_error 
     return result;
 }
 
-/* How the features moved, in coordinates: the tips by themselves, the root with the surface round
- * it. */
-typedef struct motion {
-    const gvc_coordinates *coordinates;
-    const gvc_rigid *root;
-    double *shift; /* 3 per tip */
-} motion;
-
-/* Moves the position part of a point's coordinates as the features near it have moved. */
-static void follow(const void *context, double *point) {
-    const motion *m = context;
-    const gvc_coordinates *c = m->coordinates;
-    double sum[3] = {0}, total = 0, position[3], moved[3];
-    gvc_coordinates_position(c, point, position);
-    gvc_rigid_apply(m->root, position, moved);
-    for (size_t i = 0; i < c->count; i++) {
-        double g = point[i] + 0.02, weight = 1 / (g * g);
-        total += weight;
-        for (size_t k = 0; k < 3; k++) {
-            bool root = i + 1 == c->count;
-            sum[k] += weight * (root ? moved[k] - position[k] : m->shift[3 * i + k]);
-        }
-    }
-    for (size_t k = 0; k < 3; k++) position[k] += sum[k] / total;
-    gvc_coordinates_place(c, position, point);
-}
-
-/* Lets what is known of the frame before follow the features: what is near a tip that moved is
- * looked for where it must have gone. */
-static gvc_result follow_features(gvc_tracker *t, const workspace *w, gvc_error *error) {
-    const gvc_coordinates *c = &w->routing.coordinates;
-    motion m = {c, &w->motion, gvc_alloc(3 * t->tip_count, sizeof *m.shift)};
-    if (!m.shift) return gvc_fail_memory(error);
-    for (size_t i = 0; i < t->tip_count; i++) {
-        const double *now = w->routing.mesh->position + 3 * (size_t)w->tip[i];
-        double before[3];
-        gvc_coordinates_position(c, t->tip_point + i * c->dimension, before);
-        for (size_t k = 0; k < 3; k++) m.shift[3 * i + k] = now[k] - before[k];
-    }
+/* Lets what is known of the frame before follow the surface: the cut is looked for where it must
+ * have gone. */
+static void follow_surface(gvc_tracker *t, const workspace *w) {
+    const motion m = {&w->routing.coordinates, w->warp};
     for (size_t i = 0; i < t->link_count; i++) {
         gvc_prior_move(&t->link[i].prior, follow, &m);
         follow(&m, t->link[i].junction);
     }
-    free(m.shift);
-    return GVC_OK;
 }
 
 /* Adds the initial nodes, then every link in its turn. */
@@ -462,28 +450,29 @@ static gvc_result allocate_workspace(workspace *w, const gvc_tracker *t, gvc_err
 static gvc_result track(gvc_tracker *t, const gvc_features *features, workspace *w, bool *kept,
                         gvc_error *error) {
     GVC_TRY(allocate_workspace(w, t, error));
-    GVC_TRY(
-        gvc_patch_follow(&t->patch, w->routing.mesh, patch_gate * t->diagonal, &w->motion, error));
     GVC_TRY(attach_coordinates(w, t, features, error));
     GVC_TRY(find_tips(t, features, w, kept, error));
     if (!*kept || !(*kept = same_shape(t, w))) return GVC_OK;
     GVC_TRY(find_base(t, w, kept, error));
     if (!*kept) return GVC_OK;
-    GVC_TRY(follow_features(t, w, error));
+    follow_surface(t, w);
     GVC_TRY(place_links(t, w, kept, error));
     if (!*kept) return GVC_OK;
     GVC_TRY(check_border(t, w, kept, error));
-    return *kept ? remember_points(t, w, error) : GVC_OK;
+    if (*kept) remember_points(t, w);
+    return GVC_OK;
 }
 
-gvc_result gvc_tracker_next(gvc_tracker *t, const gvc_features *features, gvc_halfedges *mesh,
-                            gvc_cut_graph *graph, bool *kept, gvc_error *error) {
+gvc_result gvc_tracker_next(gvc_tracker *t, const gvc_features *features, const gvc_warp *warp,
+                            gvc_halfedges *mesh, gvc_cut_graph *graph, bool *kept,
+                            gvc_error *error) {
     workspace w;
     *graph = (gvc_cut_graph){0};
     *kept = false;
     if (!t->started)
         return gvc_fail(error, GVC_ERROR_ARGUMENT, "there is no earlier frame to track from");
     workspace_set(&w, t, mesh, graph);
+    w.warp = warp;
     gvc_result result = GVC_OK;
     *kept = gvc_mesh_genus(mesh) == t->genus;
     if (*kept) result = track(t, features, &w, kept, error);

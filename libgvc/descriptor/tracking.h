@@ -5,11 +5,13 @@
 
 #include "descriptor/cut_graph.h"
 #include "descriptor/features.h"
+#include "descriptor/warp.h"
 
 typedef struct gvc_tracker_options {
     double prior_weight;    /**< of E_p (Eq. 8); 1 */
-    double shortest_weight; /**< of E_d (Eq. 7); 0.1: at 0.3 the cut wanders a third more */
-    double lambda;          /**< Eq. 10; 0.5; 0 cancels the prior on nodes */
+    double shortest_weight; /**< of E_d (Eq. 7); 0.05 (docs/adr/0012) */
+    double lambda;          /**< Eq. 10; 0.95: where the junction was is known ten times as well as
+                               where the shortest path meets the edge; 0 cancels the prior on nodes */
 } gvc_tracker_options;
 
 /** The values named there. */
@@ -31,10 +33,12 @@ gvc_result gvc_tracker_start(gvc_tracker *tracker, const gvc_features *features,
                              size_t extremum_count, gvc_halfedges *mesh, gvc_cut_graph *graph,
                              gvc_error *error);
 
-/** Any later frame: finds the same graph. `*kept` is false, and the graph is empty, if this frame
+/** Any later frame: finds the same graph near where `warp` moves that of the frame before (NULL:
+ * the surface is taken not to have moved). `*kept` is false, and the graph is empty, if this frame
  * does not allow that (an extremum cannot be matched, another genus, edges in another cyclic
  * order): then a new segment must start here. `mesh` may have been split all the same. */
-gvc_result gvc_tracker_next(gvc_tracker *tracker, const gvc_features *features, gvc_halfedges *mesh,
-                            gvc_cut_graph *graph, bool *kept, gvc_error *error);
+gvc_result gvc_tracker_next(gvc_tracker *tracker, const gvc_features *features,
+                            const gvc_warp *warp, gvc_halfedges *mesh, gvc_cut_graph *graph,
+                            bool *kept, gvc_error *error);
 
 #endif

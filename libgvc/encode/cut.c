@@ -9,8 +9,8 @@ gvc_result gvc_cut_follow(const gvc_cutter *cutter, const gvc_segment *segment,
                           gvc_frame_work *work, bool *continues, gvc_error *error) {
     *continues = false;
     if (work->number >= segment->end_frame) return GVC_OK;
-    return gvc_tracker_next(cutter->tracker, &work->features, &work->halfedges, &work->graph,
-                            continues, error);
+    return gvc_tracker_next(cutter->tracker, &work->features, work->warp, &work->halfedges,
+                            &work->graph, continues, error);
 }
 
 /* Cuts the first frame of a segment to `extrema` tips and lays its border out. */

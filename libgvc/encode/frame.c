@@ -2,6 +2,8 @@
 /** @file frame.c  One frame from mesh to geometry image. */
 #include "encode/frame.h"
 
+#include "base/memory.h"
+#include "chart/align.h"
 #include "chart/layout.h"
 #include "chart/sample.h"
 #include "encode/scan.h"
@@ -25,11 +27,20 @@ gvc_result gvc_frame_analyse(gvc_frame_work *work, const gvc_source *source, boo
     return gvc_at_frame(error, result, (int64_t)work->number);
 }
 
+gvc_result gvc_frame_follow(gvc_frame_work *work, const gvc_mesh *before, gvc_error *error) {
+    gvc_halfedges from = {0};
+    gvc_result result = gvc_halfedges_build(before, 0, &from, error);
+    if (result == GVC_OK) result = gvc_warp_create(&from, &work->halfedges, &work->warp, error);
+    gvc_halfedges_free(&from);
+    return gvc_at_frame(error, result, (int64_t)work->number);
+}
+
 void gvc_frame_free(gvc_frame_work *work) {
     gvc_mesh_destroy(&work->mesh);
     gvc_halfedges_free(&work->halfedges);
     gvc_features_free(&work->features);
     gvc_cut_graph_free(&work->graph);
+    gvc_warp_destroy(&work->warp);
 }
 
 gvc_result gvc_frame_uncut(gvc_frame_work *work, gvc_error *error) {
@@ -38,21 +49,60 @@ gvc_result gvc_frame_uncut(gvc_frame_work *work, gvc_error *error) {
     return gvc_halfedges_build(work->mesh, 0, &work->halfedges, error);
 }
 
+/* --------------------------------------------------------------------------------------- image */
+
+void gvc_chart_free(gvc_chart *chart) {
+    gvc_disk_free(&chart->disk);
+    free(chart->uv);
+    chart->uv = NULL;
+}
+
+gvc_result gvc_chart_make(const gvc_frame_work *work, const gvc_side_table *sides,
+                          const gvc_image_options *options, gvc_chart *chart, gvc_error *error) {
+    *chart = (gvc_chart){0};
+    gvc_result result = gvc_disk_open(&work->halfedges, &work->graph, &chart->disk, error);
+    if (result == GVC_OK) result = gvc_layout_place(&chart->disk, sides, &chart->uv, error);
+    if (result == GVC_OK) {
+        result = gvc_parameterize(&chart->disk, sides->size, &options->parameterize, chart->uv,
+                                  NULL, error);
+    }
+    if (result != GVC_OK) gvc_chart_free(chart);
+    return gvc_at_frame(error, result, (int64_t)work->number);
+}
+
+gvc_result gvc_chart_follow(const gvc_frame_work *work, uint32_t size, const double *before,
+                            const gvc_image_options *options, gvc_chart *chart, gvc_error *error) {
+    size_t plane = (size_t)size * size;
+    if (!work->warp || !(options->align > 0)) return GVC_OK;
+    double *target = gvc_alloc(3 * plane, sizeof *target);
+    if (!target) return gvc_fail_memory(error);
+    for (size_t i = 0; i < plane; i++) {
+        double point[3] = {before[i], before[plane + i], before[2 * plane + i]};
+        gvc_warp_point(work->warp, point, point);
+        for (size_t c = 0; c < 3; c++) target[c * plane + i] = point[c];
+    }
+    const gvc_align_options align = {options->align, work->diagonal};
+    gvc_result result = gvc_align(&chart->disk, size, target, &align, chart->uv, error);
+    free(target);
+    return gvc_at_frame(error, result, (int64_t)work->number);
+}
+
+gvc_result gvc_chart_fit(const gvc_frame_work *work, const gvc_chart *chart, const gvc_weld *weld,
+                         const gvc_image_options *options, double *image, gvc_error *error) {
+    if (!options->fit) return GVC_OK;
+    gvc_result result =
+        gvc_sample_fit(&chart->disk, chart->uv, weld, FIT_REGULARIZATION, image, error);
+    return gvc_at_frame(error, result, (int64_t)work->number);
+}
+
 gvc_result gvc_frame_image(const gvc_frame_work *work, const gvc_side_table *sides,
                            const gvc_weld *weld, const gvc_image_options *options, double *image,
-                           gvc_parameterize_report *report, gvc_error *error) {
-    gvc_disk disk = {0};
-    double *uv = NULL;
-    gvc_result result = gvc_disk_open(&work->halfedges, &work->graph, &disk, error);
-    if (result == GVC_OK) result = gvc_layout_place(&disk, sides, &uv, error);
-    if (result == GVC_OK) {
-        result = gvc_parameterize(&disk, sides->size, &options->parameterize, uv, report, error);
-    }
-    if (result == GVC_OK) result = gvc_sample_points(&disk, uv, weld, image, error);
-    if (result == GVC_OK && options->fit) {
-        result = gvc_sample_fit(&disk, uv, weld, FIT_REGULARIZATION, image, error);
-    }
-    free(uv);
-    gvc_disk_free(&disk);
-    return gvc_at_frame(error, result, (int64_t)work->number);
+                           gvc_error *error) {
+    gvc_chart chart;
+    GVC_TRY(gvc_chart_make(work, sides, options, &chart, error));
+    gvc_result result = gvc_sample_points(&chart.disk, chart.uv, weld, image, error);
+    result = gvc_at_frame(error, result, (int64_t)work->number);
+    if (result == GVC_OK) result = gvc_chart_fit(work, &chart, weld, options, image, error);
+    gvc_chart_free(&chart);
+    return result;
 }

@@ -97,6 +97,7 @@ gvc_result gvc_segment_begin(const gvc_source *source, const gvc_encode_options 
     segment->image_options.parameterize.stretch_exponent = 1.1;
     segment->image_options.parameterize.curvature_exponent = options->curvature_weight;
     segment->image_options.fit = true;
+    segment->image_options.align = 0.5;
     set_cube(segment, facts);
     segment->vote_end = segment->end_frame;
     if (vote_end == segment->vote_end) {
@@ -155,7 +156,7 @@ static gvc_result measure_sampling(const gvc_segment *segment, const gvc_frame_w
     gvc_result result = image && plane ? GVC_OK : gvc_fail_memory(error);
     if (result == GVC_OK) result = gvc_weld_build(sides, &weld, error);
     if (result == GVC_OK) {
-        result = gvc_frame_image(work, sides, &weld, &options, image, NULL, error);
+        result = gvc_frame_image(work, sides, &weld, &options, image, error);
     }
     if (result == GVC_OK) {
         for (size_t i = 0; i < count; i++) {

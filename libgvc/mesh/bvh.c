@@ -15,7 +15,7 @@
  * deeper than MAX_DEPTH. */
 #define HEURISTIC_DEPTH 32
 #define MAX_DEPTH 64
-/* sin^2 of an angle below which a triangle counts as a segment, see closest_on_triangle. */
+/* sin^2 of an angle below which a triangle counts as a segment, see gvc_closest_on_triangle. */
 #define SLIVER 1e-14
 
 typedef struct box {
@@ -269,14 +269,13 @@ static void try_edge(const double point[3], const double *corner, int i, gvc_clo
     closest->barycentric[j] = t;
 }
 
-/* Closest point of a triangle; returns the squared distance. The point is inside if all three
- * barycentric coordinates of its projection are positive; otherwise it lies on an edge that the
- * point can see, that is one whose opposite coordinate is negative (compare Ericson, Real-Time
- * Collision Detection, 5.1.5, whose products of four lengths lose twice the digits on slivers). A
- * triangle too thin for its normal to mean anything is its edges, at an error of half its height.
- */
-static double closest_on_triangle(const double point[3], const double *corner,
-                                  gvc_closest *closest) {
+/* The point is inside if all three barycentric coordinates of its projection are positive;
+ * otherwise it lies on an edge that the point can see, that is one whose opposite coordinate is
+ * negative (compare Ericson, Real-Time Collision Detection, 5.1.5, whose products of four lengths
+ * lose twice the digits on slivers). A triangle too thin for its normal to mean anything is its
+ * edges, at an error of half its height. */
+double gvc_closest_on_triangle(const double point[3], const double corner[9],
+                               gvc_closest *closest) {
     double ab[3], ac[3], ap[3], normal[3], part[3], weight[3];
     gvc_subtract(corner + 3, corner, ab);
     gvc_subtract(corner + 6, corner, ac);
@@ -330,7 +329,7 @@ static void search_leaf(search *s, const node *leaf) {
         const double *corner = s->bvh->corner + 9 * (size_t)i;
         if (s->normal && faces_away(corner, s->normal)) continue;
         gvc_closest candidate = {.face = s->bvh->face[i]};
-        double squared = closest_on_triangle(s->point, corner, &candidate);
+        double squared = gvc_closest_on_triangle(s->point, corner, &candidate);
         if (!(squared < HUGE_VAL)) continue; /* the query is not a number, or overflowed */
         if (s->found ? squared >= s->squared : sqrt(squared) > s->limit) continue;
         *s->closest = candidate;

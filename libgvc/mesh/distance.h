@@ -26,6 +26,10 @@ typedef struct gvc_closest {
 bool gvc_bvh_closest(const gvc_bvh *bvh, const double point[3], const double *normal, double limit,
                      gvc_closest *closest);
 
+/** Closest point of one triangle, given by 3 coordinates per corner; returns the squared distance
+ * and sets point and barycentric coordinates, nothing else. */
+double gvc_closest_on_triangle(const double point[3], const double corner[9], gvc_closest *closest);
+
 /** `count` points spread over the surface by area, deterministically: a low-discrepancy sequence
  * over the cumulated areas; consecutive points lie on the same or consecutive faces. `points` has
  * room for 3 * count. GVC_ERROR_MESH if the area is zero or overflows, unless `count` is 0. */

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "mesh/order.h"
+#include "mesh/vector.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -244,6 +245,21 @@ uint32_t gvc_halfedge_between(const gvc_halfedges *m, uint32_t from, uint32_t to
         h = gvc_turn(m, h);
     } while (h != GVC_NONE && h != m->outgoing[from]);
     return GVC_NONE;
+}
+
+void gvc_face_area_normal(const gvc_halfedges *m, size_t face, double normal[3]) {
+    const uint32_t *v = m->vertex + 3 * face;
+    const double *a = m->position + 3 * (size_t)v[0];
+    double ab[3], ac[3];
+    gvc_subtract(m->position + 3 * (size_t)v[1], a, ab);
+    gvc_subtract(m->position + 3 * (size_t)v[2], a, ac);
+    gvc_cross(ab, ac, normal);
+}
+
+void gvc_face_normal(const gvc_halfedges *m, size_t face, double normal[3]) {
+    gvc_face_area_normal(m, face, normal);
+    double length = sqrt(gvc_dot(normal, normal));
+    for (int k = 0; k < 3; k++) normal[k] = length > 0 ? normal[k] / length : 0;
 }
 
 double gvc_halfedge_length(const gvc_halfedges *m, uint32_t h) {

@@ -44,6 +44,10 @@ gvc_result gvc_halfedges_split(gvc_halfedges *halfedges, uint32_t h, double t, u
 /** The halfedge from `from` to `to`, or GVC_NONE. */
 uint32_t gvc_halfedge_between(const gvc_halfedges *halfedges, uint32_t from, uint32_t to);
 double gvc_halfedge_length(const gvc_halfedges *halfedges, uint32_t h);
+/** Its length is twice the area of the face; it points outwards. */
+void gvc_face_area_normal(const gvc_halfedges *halfedges, size_t face, double normal[3]);
+/** Unit length, or 0 for a face without area. */
+void gvc_face_normal(const gvc_halfedges *halfedges, size_t face, double normal[3]);
 
 /** Turns to the next halfedge that starts at the same vertex (counter-clockwise seen from outside);
  *  GVC_NONE at a border. Iterate:

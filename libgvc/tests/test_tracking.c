@@ -169,7 +169,7 @@ static void track_segment(surface_maker make, size_t tips, size_t genus, int fra
         if (frame == 0)
             result = gvc_tracker_start(tracker, &features, tips, &mesh, &graph, NULL);
         else
-            result = gvc_tracker_next(tracker, &features, &mesh, &graph, &kept, NULL);
+            result = gvc_tracker_next(tracker, &features, NULL, &mesh, &graph, &kept, NULL);
         assert_int_equal(result, GVC_OK);
         assert_true(kept);
         check_opens_to_disk(&mesh, &graph);
@@ -234,11 +234,11 @@ static gvc_tracker *begun(void) {
 static void refused(gvc_tracker *tracker, gvc_halfedges *mesh, const gvc_features *features) {
     gvc_cut_graph graph;
     bool kept;
-    assert_int_equal(gvc_tracker_next(tracker, features, mesh, &graph, &kept, NULL), GVC_OK);
+    assert_int_equal(gvc_tracker_next(tracker, features, NULL, mesh, &graph, &kept, NULL), GVC_OK);
     assert_false(kept);
     assert_int_equal(graph.edge_count, 0);
     assert_int_equal(mesh->attribute_count, 0);
-    assert_int_equal(gvc_tracker_next(tracker, features, mesh, &graph, &kept, NULL),
+    assert_int_equal(gvc_tracker_next(tracker, features, NULL, mesh, &graph, &kept, NULL),
                      GVC_ERROR_ARGUMENT);
     gvc_tracker_destroy(&tracker);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /** @file conjugate_gradient.c  Preconditioned conjugate gradients, free of any matrix format. */
-#include "chart/conjugate_gradient.h"
+#include "base/conjugate_gradient.h"
 
 #include "base/memory.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /** @file conjugate_gradient.h  Preconditioned conjugate gradients, free of any matrix format. */
-#ifndef GVC_CHART_CONJUGATE_GRADIENT_H
-#define GVC_CHART_CONJUGATE_GRADIENT_H
+#ifndef GVC_BASE_CONJUGATE_GRADIENT_H
+#define GVC_BASE_CONJUGATE_GRADIENT_H
 
 #include "base/result.h"
 
