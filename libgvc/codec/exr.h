@@ -33,10 +33,11 @@
 typedef struct gvc_exr_facts {
     double origin[3], step; /**< position = origin + step * code; finite, step > 0 */
     double time;            /**< seconds; finite */
-    char unit[16];          /**< UTF-8; "" unknown */
+    char unit[16];          /**< UTF-8 without control characters; "" unknown */
 } gvc_exr_facts;
 
-/** Appends the file for an image of 3 planes of size * size codes. */
+/** Appends the file for an image of 3 planes of size * size codes. GVC_ERROR_ARGUMENT if the facts
+ * are not as said above. */
 gvc_result gvc_exr_encode(uint32_t size, const uint16_t *codes, const gvc_exr_facts *facts,
                           gvc_buffer *bytes, gvc_error *error);
 

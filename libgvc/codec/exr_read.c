@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /** @file exr_read.c  Geometry images as OpenEXR files: reading, which is of untrusted bytes. */
 #include "base/memory.h"
+#include "base/utf8.h"
 #include "chart/side_table.h"
 #include "codec/exr.h"
 #include "codec/exr_half.h"
@@ -118,8 +119,10 @@ static gvc_result read_unit(exr_context_t file, gvc_exr_facts *facts, gvc_error 
     exr_result_t status = exr_attr_get_string(file, 0, GVC_EXR_UNIT_NAME, &length, &unit);
     if (status == EXR_ERR_NO_ATTR_BY_NAME) return GVC_OK;
     if (status) return fail_exr(status, error);
-    if (length < 1 || (size_t)length >= sizeof facts->unit) {
-        return gvc_fail(error, GVC_ERROR_CORRUPT, "the unit of the OpenEXR file has %d bytes",
+    if (length < 1 || (size_t)length >= sizeof facts->unit ||
+        !gvc_utf8_is_plain((const uint8_t *)unit, (size_t)length)) {
+        return gvc_fail(error, GVC_ERROR_CORRUPT,
+                        "the unit of the OpenEXR file, %d bytes, is too long or not plain UTF-8",
                         (int)length);
     }
     memcpy(facts->unit, unit, (size_t)length);

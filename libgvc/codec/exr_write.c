@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /** @file exr_write.c  Geometry images as OpenEXR files: writing. */
 #include "base/memory.h"
+#include "base/utf8.h"
 #include "chart/side_table.h"
 #include "codec/exr.h"
 #include "codec/exr_half.h"
@@ -115,7 +116,8 @@ static gvc_result check_facts(uint32_t size, const gvc_exr_facts *facts, gvc_err
     bool finite = isfinite(origin[0]) && isfinite(origin[1]) && isfinite(origin[2]) &&
                   isfinite(facts->step) && isfinite(facts->time);
     if (size < GVC_MIN_IMAGE_SIZE || size > GVC_MAX_IMAGE_SIZE || !finite || facts->step <= 0 ||
-        !memchr(facts->unit, 0, sizeof facts->unit)) {
+        !memchr(facts->unit, 0, sizeof facts->unit) ||
+        !gvc_utf8_is_plain((const uint8_t *)facts->unit, strlen(facts->unit))) {
         return gvc_fail(error, GVC_ERROR_ARGUMENT, "an OpenEXR image of %u samples a side, step %g",
                         size, facts->step);
     }

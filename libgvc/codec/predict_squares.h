@@ -12,10 +12,10 @@
  *
  *     sum over samples s before (x, y):  2^-distance(s) * sum over k: (t - sum of w[i] r[i])^2
  *
- * with distance = |dx| + |dy|, plus a weak
- * pull of w to 0. The sums are integers; they are halved from sample to sample, which is what makes
- * the weights 2^-distance. The system of 18 equations is solved in IEEE 754 binary64 by +, - and *
- * and one division a row, in an order that the code states: any machine gives the same bits.
+ * with distance = |dx| + |dy|, plus a weak pull of w to 0. The sums are integers; they are halved
+ * from sample to sample and from row to row, which is what makes the weights 2^-distance. The
+ * system of 18 equations is solved in IEEE 754 binary64 by +, -, * and one division a row, in an
+ * order that the code states: any machine gives the same bits.
  */
 #ifndef GVC_CODEC_PREDICT_SQUARES_H
 #define GVC_CODEC_PREDICT_SQUARES_H
