@@ -3,6 +3,7 @@
  * the replay test, each of them with single bytes changed. */
 #include "container/shape_record.h"
 #include "container/writer.h"
+#include "seed.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -83,32 +84,6 @@ static gvc_result make_file(const gvc_buffer *first, const gvc_buffer *same, gvc
     return result;
 }
 
-static int save(const char *folder, const char *name, uint8_t option, const gvc_buffer *bytes) {
-    char path[4096];
-    int length = snprintf(path, sizeof path, "%s/%s", folder, name);
-    if (length < 0 || (size_t)length >= sizeof path) return 1;
-    FILE *file = fopen(path, "wb");
-    if (!file) return 1;
-    int failed = fputc(option, file) == EOF;
-    failed |= fwrite(bytes->data, 1, bytes->size, file) != bytes->size;
-    failed |= fclose(file) != 0;
-    return failed;
-}
-
-/** Every `stride`-th byte changed, one per file. */
-static int save_changed(const char *folder, const char *stem, uint8_t option, gvc_buffer *bytes,
-                        size_t stride) {
-    int failed = 0;
-    for (size_t i = 0; i < bytes->size; i += stride) {
-        char name[64];
-        snprintf(name, sizeof name, "%s_%04zu", stem, i);
-        bytes->data[i] ^= (uint8_t)(1u << i % 8);
-        failed |= save(folder, name, option, bytes);
-        bytes->data[i] ^= (uint8_t)(1u << i % 8);
-    }
-    return failed;
-}
-
 int main(int argc, char **argv) {
     bool changed = argc == 3 && strcmp(argv[2], "--changed") == 0;
     if (argc != 2 && !changed) {
@@ -124,13 +99,13 @@ int main(int argc, char **argv) {
                  gvc_shape_record_write(NULL, &next, &same, NULL) != GVC_OK ||
                  make_file(&first, &same, &file) != GVC_OK || file.failed;
     if (!failed) {
-        failed |= save(argv[1], "file", 0, &file);
-        failed |= save(argv[1], "file_keep_going", 1, &file);
-        failed |= save(argv[1], "record", 2, &first);
-        failed |= save(argv[1], "record_same", 2, &same);
+        failed |= seed_save(argv[1], "file", 0, &file);
+        failed |= seed_save(argv[1], "file_keep_going", 1, &file);
+        failed |= seed_save(argv[1], "record", 2, &first);
+        failed |= seed_save(argv[1], "record_same", 2, &same);
         if (changed) {
-            failed |= save_changed(argv[1], "changed_file", 1, &file, 7);
-            failed |= save_changed(argv[1], "changed_record", 2, &first, 1);
+            failed |= seed_save_changed(argv[1], "changed_file", 1, &file, 7);
+            failed |= seed_save_changed(argv[1], "changed_record", 2, &first, 1);
         }
     }
     if (failed) fprintf(stderr, "make_seeds: cannot write to %s\n", argv[1]);

@@ -5,7 +5,7 @@
 set -eu
 
 wanted="build-essential cmake ninja-build pkg-config
-  libavcodec-dev libavutil-dev libzstd-dev libsuitesparse-dev
+  libavcodec-dev libavutil-dev libzstd-dev libopenexr-dev libsuitesparse-dev
   libpng-dev libzip-dev libdraco-dev libcmocka-dev ffmpeg $*"
 
 missing=""

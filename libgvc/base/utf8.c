@@ -2,8 +2,6 @@
 /** @file utf8.c  What is well-formed UTF-8 (RFC 3629). */
 #include "base/utf8.h"
 
-#include <stdbool.h>
-
 static bool is_within(uint8_t byte, uint8_t least, uint8_t greatest) {
     return byte >= least && byte <= greatest;
 }
@@ -21,4 +19,19 @@ size_t gvc_utf8_size(const uint8_t *text, size_t left) {
         if (!is_within(text[i], 0x80, 0xbf)) return 0;
     }
     return size;
+}
+
+size_t gvc_utf8_plain_size(const uint8_t *text, size_t left) {
+    size_t size = gvc_utf8_size(text, left);
+    bool control = text[0] < 0x20 || text[0] == 0x7f || (text[0] == 0xc2 && size && text[1] < 0xa0);
+    return control ? 0 : size;
+}
+
+bool gvc_utf8_is_plain(const uint8_t *text, size_t size) {
+    for (size_t i = 0; i < size;) {
+        size_t step = gvc_utf8_plain_size(text + i, size - i);
+        if (step == 0) return false;
+        i += step;
+    }
+    return true;
 }

@@ -6,20 +6,13 @@
 
 #include <string.h>
 
-/** Bytes of the character at `text`, or 0 if it is not one that a label may hold. */
-static size_t character_size(const uint8_t *text, size_t left) {
-    size_t size = gvc_utf8_size(text, left);
-    bool control = text[0] < 0x20 || text[0] == 0x7f || (text[0] == 0xc2 && size && text[1] < 0xa0);
-    return control ? 0 : size;
-}
-
 void gvc_write_label(gvc_buffer *buffer, const char *text, size_t capacity) {
     const uint8_t *bytes = (const uint8_t *)text;
     size_t length = strnlen(text, capacity - 1);
     if (length > UINT8_MAX) length = UINT8_MAX;
     gvc_write_u8(buffer, (uint8_t)length);
     for (size_t i = 0; i < length;) {
-        size_t size = character_size(bytes + i, length - i);
+        size_t size = gvc_utf8_plain_size(bytes + i, length - i);
         if (size) {
             gvc_write_bytes(buffer, bytes + i, size);
         } else {
@@ -32,12 +25,7 @@ void gvc_write_label(gvc_buffer *buffer, const char *text, size_t capacity) {
 bool gvc_read_label(gvc_cursor *cursor, char *text, size_t capacity) {
     size_t length = gvc_read_u8(cursor);
     const uint8_t *bytes = gvc_read_bytes(cursor, length);
-    if (!bytes || length >= capacity) return false;
-    for (size_t i = 0; i < length;) {
-        size_t size = character_size(bytes + i, length - i);
-        if (!size) return false;
-        i += size;
-    }
+    if (!bytes || length >= capacity || !gvc_utf8_is_plain(bytes, length)) return false;
     memcpy(text, bytes, length);
     text[length] = '\0';
     return true;
