@@ -11,6 +11,7 @@
 #include "encode/cut.h"
 #include "encode/group.h"
 #include "encode/rate.h"
+#include "encode/tap.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -28,6 +29,7 @@
 typedef struct encoder {
     const gvc_source *source;
     const gvc_sink *sink;
+    const gvc_image_tap *tap; /* NULL: nobody looks on */
     gvc_encode_options options;
     gvc_scan_frame *facts;
     gvc_encode_report report;
@@ -268,6 +270,10 @@ static gvc_result image_one(void *user, size_t index, gvc_error *error) {
         context->unfit[index] = result == GVC_ERROR_MESH;
         if (result != GVC_OK && result != GVC_ERROR_MESH && error) *error = context->error[index];
     }
+    if (result == GVC_OK && e->tap) {
+        result = e->tap->image(e->tap->user, e->work[context->first + index].number, image, e->size,
+                               error);
+    }
     if (result == GVC_OK) {
         gvc_segment_quantise(segment, image, e->group.layout, luma);
         e->group.frame[e->group.count + index].luma = luma;
@@ -370,13 +376,14 @@ static gvc_result encode_all(encoder *e, gvc_error *error) {
     return gvc_writer_finish(e->writer, error);
 }
 
-gvc_result gvc_encode(const gvc_source *source, const gvc_sink *sink,
-                      const gvc_encode_options *options, gvc_encode_report *report,
-                      gvc_error *error) {
+gvc_result gvc_encode_tapped(const gvc_source *source, const gvc_sink *sink,
+                             const gvc_encode_options *options, const gvc_image_tap *tap,
+                             gvc_encode_report *report, gvc_error *error) {
     GVC_TRY(check_options(options, source, error));
     encoder *e = gvc_alloc(1, sizeof *e);
     if (!e) return gvc_fail_memory(error);
-    *e = (encoder){.source = source, .sink = sink, .options = *options, .crf = FIRST_CRF};
+    *e = (encoder){
+        .source = source, .sink = sink, .tap = tap, .options = *options, .crf = FIRST_CRF};
     gvc_tracker_options tracking;
     gvc_tracker_options_init(&tracking);
     tracking.prior_weight = options->prior_weight;
@@ -397,4 +404,10 @@ gvc_result gvc_encode(const gvc_source *source, const gvc_sink *sink,
     free(e->facts);
     free(e);
     return gvc_explain(error, result);
+}
+
+gvc_result gvc_encode(const gvc_source *source, const gvc_sink *sink,
+                      const gvc_encode_options *options, gvc_encode_report *report,
+                      gvc_error *error) {
+    return gvc_encode_tapped(source, sink, options, NULL, report, error);
 }
