@@ -24,6 +24,7 @@ add_library(gvc_compare OBJECT
 if(GVC_ENCODER)
   target_sources(gvc_compare PRIVATE
     "${CMAKE_CURRENT_LIST_DIR}/compare_paper.c"
+    "${CMAKE_CURRENT_LIST_DIR}/compare_paper_gis.c"
     "${CMAKE_CURRENT_LIST_DIR}/compare_paper_images.c"
     "${CMAKE_CURRENT_LIST_DIR}/compare_paper_ours.c"
     "${CMAKE_CURRENT_LIST_DIR}/compare_paper_print.c"

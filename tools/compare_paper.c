@@ -28,6 +28,10 @@ gvc_result paper_measure(const paper_request *request, const paper_options *opti
     capture->frame_count = request->source->frame_count;
     capture->hausdorff_reference = capture->zip_bytes = NAN;
     GVC_TRY(paper_find_cube(request->source, options, &capture->cube, error));
+    if (request->method[PAPER_GIS]) {
+        GVC_TRY(paper_measure_gis(request->source, &capture->cube, options,
+                                  &capture->result[PAPER_GIS], error));
+    }
     if (request->method[PAPER_FIXED]) {
         GVC_TRY(paper_measure_ours(request->source, &capture->cube, "fixed", options,
                                    &capture->result[PAPER_FIXED], error));

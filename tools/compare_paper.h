@@ -85,6 +85,10 @@ gvc_result paper_find_cube(const gvc_source *source, const paper_options *option
 gvc_result paper_measure_ours(const gvc_source *source, const paper_cube *cube, const char *what,
                               const paper_options *options, paper_result *made, gvc_error *error);
 
+/** Frames cut by themselves (encode/reference.h). */
+gvc_result paper_measure_gis(const gvc_source *source, const paper_cube *cube,
+                             const paper_options *options, paper_result *made, gvc_error *error);
+
 /* ------------------------------------------------------------------------------------ captures */
 
 /** What the paper says of one of its captures. */
