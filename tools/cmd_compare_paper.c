@@ -5,6 +5,7 @@
 #include "frames.h"
 
 #include "base/memory.h"
+#include "base/output.h"
 #include "base/result.h"
 
 #include <math.h>
@@ -179,7 +180,7 @@ static int print(const comparison *c) {
     if (c->arguments->json) {
         paper_print_json(c->capture, c->capture_count, &c->options, &text);
     } else if (c->arguments->csv) {
-        paper_print_csv(c->capture, c->capture_count, &c->options, &text);
+        paper_print_csv(c->capture, c->capture_count, &text);
     } else {
         paper_print_tables(c->capture, c->capture_count, &c->options, &text);
     }
@@ -188,31 +189,52 @@ static int print(const comparison *c) {
     return status;
 }
 
-static int compare_all(comparison *c, char *const *frames, int count) {
+static gvc_result write_plot(const comparison *c, gvc_output *output, gvc_error *error) {
+    gvc_buffer text = {0};
+    paper_print_plot(c->capture, c->capture_count, &text);
+    gvc_result result = text.failed ? gvc_fail_memory(error)
+                                    : gvc_output_write(output, text.data, text.size, error);
+    gvc_buffer_free(&text);
+    if (result == GVC_OK) result = gvc_output_end(output, error);
+    return result;
+}
+
+static gvc_result measure_all(comparison *c, char *const *frames, int count, bool each,
+                              gvc_error *error) {
     const compare_arguments *a = c->arguments;
-    bool each = true;
-    gvc_error error;
-    gvc_error_init(&error);
-    for (int i = 0; i < count; i++) each &= names_capture(frames[i]);
     size_t captures = each ? (size_t)count : 1;
-    int status = check_captures(c, captures);
-    if (status != EXIT_DONE) return status;
     c->capture = gvc_alloc(captures, sizeof *c->capture);
-    if (!c->capture) {
-        (void)gvc_fail_memory(&error);
-        return cli_fail("compare", NULL, &error);
-    }
+    if (!c->capture) return gvc_fail_memory(error);
     for (size_t i = 0; i < captures; i++) {
         job j = {.frames = frames + i,
                  .frame_arguments = each ? 1 : count,
                  .mixed = (int)i < a->mixed.count ? &a->mixed.item[i] : NULL,
                  .row = (int)i < a->row.count ? a->row.item[i] : NULL};
         c->capture_count = i + 1;
-        if (measure(c, &j, &c->capture[i], &error) != GVC_OK) {
-            return cli_fail("compare", j.frame_arguments == 1 ? j.frames[0] : NULL, &error);
-        }
+        gvc_result result = measure(c, &j, &c->capture[i], error);
+        if (result == GVC_OK) continue;
+        return error->where[0] ? result : gvc_fail_in(error, result, frames[i]);
     }
-    return print(c);
+    return GVC_OK;
+}
+
+static int compare_all(comparison *c, char *const *frames, int count) {
+    const compare_arguments *a = c->arguments;
+    bool each = true;
+    gvc_output plot = {.descriptor = -1};
+    gvc_error error;
+    gvc_error_init(&error);
+    for (int i = 0; i < count; i++) each &= names_capture(frames[i]);
+    int status = check_captures(c, each ? (size_t)count : 1);
+    if (status != EXIT_DONE) return status;
+    /* a file that cannot be written is told before the work is done */
+    if (a->plot && !a->force && cli_in_the_way("compare", a->plot)) return EXIT_DATA;
+    gvc_result result = GVC_OK;
+    if (a->plot) result = gvc_output_begin(a->plot, a->force, &plot, &error);
+    if (result == GVC_OK) result = measure_all(c, frames, count, each, &error);
+    if (result == GVC_OK && a->plot) result = write_plot(c, &plot, &error);
+    if (a->plot) gvc_output_discard(&plot);
+    return result == GVC_OK ? print(c) : cli_fail("compare", NULL, &error);
 }
 
 int compare_paper_command(const compare_arguments *arguments, char *const *frames, int count) {

@@ -20,13 +20,17 @@ add_library(gvc_compare OBJECT
   "${CMAKE_CURRENT_LIST_DIR}/compare_print.c"
   "${CMAKE_CURRENT_LIST_DIR}/compare_text.c"
   "${CMAKE_CURRENT_LIST_DIR}/compare_zip.c"
+  "${CMAKE_CURRENT_LIST_DIR}/plot.c"
+  "${CMAKE_CURRENT_LIST_DIR}/simplify.c"
   "${CMAKE_CURRENT_LIST_DIR}/json.c")
 if(GVC_ENCODER)
   target_sources(gvc_compare PRIVATE
     "${CMAKE_CURRENT_LIST_DIR}/compare_paper.c"
+    "${CMAKE_CURRENT_LIST_DIR}/compare_paper_data.c"
     "${CMAKE_CURRENT_LIST_DIR}/compare_paper_gis.c"
     "${CMAKE_CURRENT_LIST_DIR}/compare_paper_images.c"
     "${CMAKE_CURRENT_LIST_DIR}/compare_paper_ours.c"
+    "${CMAKE_CURRENT_LIST_DIR}/compare_paper_plot.c"
     "${CMAKE_CURRENT_LIST_DIR}/compare_paper_print.c"
     "${CMAKE_CURRENT_LIST_DIR}/compare_paper_rows.c")
 endif()

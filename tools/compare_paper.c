@@ -2,11 +2,14 @@
 /** @file compare_paper.c  All the paper's measurements of one capture. */
 #include "compare_paper.h"
 
-#include "base/memory.h"
+#include "base/parallel.h"
 #include "base/result.h"
+#include "encode/scan.h"
+#include "simplify.h"
 
 #include <math.h>
-#include <stdlib.h>
+
+#define BATCH 16
 
 void paper_capture_free(paper_capture *capture) {
     for (int m = 0; m < PAPER_METHODS; m++) paper_result_free(&capture->result[m]);
@@ -22,6 +25,50 @@ static gvc_result measure_zip(const paper_request *request, const paper_options 
     capture->zip_bytes = row.bytes * (double)row.frames;
     return GVC_OK;
 }
+
+/* ----------------------------------------------------------------------------------- reference */
+
+typedef struct reference_work {
+    const gvc_source *source;
+    size_t samples;
+    uint64_t first;
+    double hausdorff[BATCH];
+} reference_work;
+
+static gvc_result reference_frame(void *context, size_t index, gvc_error *error) {
+    reference_work *work = context;
+    uint64_t frame = work->first + index;
+    compare_frame measured;
+    gvc_mesh *mesh = NULL, *simple = NULL;
+    gvc_result result = gvc_load_frame(work->source, frame, true, &mesh, NULL, error);
+    if (result == GVC_OK) result = simplify_mesh(mesh, PAPER_REFERENCE_VERTICES, &simple, error);
+    if (result == GVC_OK) result = compare_measure(mesh, simple, work->samples, &measured, error);
+    if (result == GVC_OK) work->hausdorff[index] = measured.hausdorff;
+    gvc_mesh_destroy(&mesh);
+    gvc_mesh_destroy(&simple);
+    return gvc_at_frame(error, result, (int64_t)frame);
+}
+
+static gvc_result measure_reference(const gvc_source *source, const paper_options *options,
+                                    double *hausdorff, gvc_error *error) {
+    reference_work work = {.source = source, .samples = options->samples};
+    double sum = 0;
+    while (work.first < source->frame_count) {
+        uint64_t left = source->frame_count - work.first;
+        size_t count = left < BATCH ? (size_t)left : BATCH;
+        if (options->progress &&
+            !options->progress(options->user, "ref", work.first, source->frame_count)) {
+            return gvc_fail(error, GVC_ERROR_CANCELLED, "interrupted");
+        }
+        GVC_TRY(gvc_parallel_for(options->threads, count, reference_frame, &work, error));
+        for (size_t i = 0; i < count; i++) sum += work.hausdorff[i];
+        work.first += count;
+    }
+    *hausdorff = sum / (double)source->frame_count;
+    return GVC_OK;
+}
+
+/* ----------------------------------------------------------------------------------- everything */
 
 gvc_result paper_measure(const paper_request *request, const paper_options *options,
                          paper_capture *capture, gvc_error *error) {
@@ -39,6 +86,9 @@ gvc_result paper_measure(const paper_request *request, const paper_options *opti
     if (request->method[PAPER_MIXED] && request->mixed) {
         GVC_TRY(paper_measure_ours(request->mixed, &capture->cube, "mixed", options,
                                    &capture->result[PAPER_MIXED], error));
+    }
+    if (request->reference && options->coded) {
+        GVC_TRY(measure_reference(request->source, options, &capture->hausdorff_reference, error));
     }
     if (request->zip && options->coded) GVC_TRY(measure_zip(request, options, capture, error));
     return GVC_OK;

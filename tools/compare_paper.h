@@ -15,6 +15,8 @@
 #include "compare.h"
 
 #define PAPER_COMPONENTS 3
+#define PAPER_REFERENCE_VERTICES 125
+#define PAPER_KB 1000.0
 
 typedef enum paper_method { PAPER_GIS, PAPER_FIXED, PAPER_MIXED, PAPER_METHODS } paper_method;
 
@@ -138,11 +140,14 @@ void paper_capture_free(paper_capture *capture);
 
 void paper_print_tables(const paper_capture *captures, size_t count, const paper_options *options,
                         gvc_buffer *text);
-/** {"size", "crf", ..., "captures": [{...}]} with the tables' figures in full precision. */
+/** One object with the settings and "captures": for each its cube, for each method what
+ * paper_result holds, null where not measured, and what the paper says of it. */
 void paper_print_json(const paper_capture *captures, size_t count, const paper_options *options,
                       gvc_buffer *text);
-/** One line per capture and method, with a header line. */
-void paper_print_csv(const paper_capture *captures, size_t count, const paper_options *options,
-                     gvc_buffer *text);
+/** One line per capture and method measured, with a header line; the paper's figures on lines of
+ * their own, whose method is "paper gis" and so on. */
+void paper_print_csv(const paper_capture *captures, size_t count, gvc_buffer *text);
+/** SVG: the change of the images over time, one diagram a capture (the paper's Fig. 9). */
+void paper_print_plot(const paper_capture *captures, size_t count, gvc_buffer *text);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/** @file compare_paper_print.c  The paper's tables as text, JSON and CSV. */
+/** @file compare_paper_print.c  The paper's tables as text. */
 #include "compare_paper.h"
 #include "compare_text.h"
 
@@ -10,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define KB 1000.0
 #define COLUMNS 6 /* at most, beside the first */
 #define LABEL 100
 
@@ -165,9 +164,9 @@ static void print_bytes(const paper_capture *captures, size_t count, gvc_buffer 
     for (size_t i = 0; i < count; i++) {
         const paper_capture *c = &captures[i];
         double gis = coded(c, PAPER_GIS)->bytes, ours = coded(c, PAPER_FIXED)->bytes;
-        const double value[] = {
-            (double)c->frame_count, c->zip_bytes / KB,        gis / KB, ours / KB,
-            ratio(ours, gis),       ratio(c->zip_bytes, ours)};
+        const double value[] = {(double)c->frame_count, c->zip_bytes / PAPER_KB,
+                                gis / PAPER_KB,         ours / PAPER_KB,
+                                ratio(ours, gis),       ratio(c->zip_bytes, ours)};
         add_numbers(&t, c->name, value, decimals);
         if (!c->row) continue;
         const paper_row *r = c->row;
@@ -195,15 +194,4 @@ void paper_print_tables(const paper_capture *captures, size_t count, const paper
     if (!options->coded) return;
     print_hausdorff(captures, count, text);
     print_bytes(captures, count, text);
-}
-
-/* ----------------------------------------------------------------------------- JSON and CSV */
-
-void paper_print_json(const paper_capture *captures, size_t count, const paper_options *options,
-                      gvc_buffer *text) {
-    (void)captures, (void)count, (void)options, (void)text;
-}
-void paper_print_csv(const paper_capture *captures, size_t count, const paper_options *options,
-                     gvc_buffer *text) {
-    (void)captures, (void)count, (void)options, (void)text;
 }
