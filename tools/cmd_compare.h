@@ -10,7 +10,7 @@
 #include <stddef.h>
 
 /** Rate factor of --paper. */
-#define COMPARE_PAPER_CRF "8"
+#define COMPARE_PAPER_CRF "20"
 
 /** Arguments of an option that may be given once for every capture. */
 typedef struct compare_list {

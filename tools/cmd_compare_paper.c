@@ -87,7 +87,7 @@ static int choose_tables(comparison *c) {
         if (!cli_uint(item, 1, 3, &number)) {
             return cli_usage("compare", "there is no table '%s'", item);
         }
-        c->options.coded |= number > 1;
+        c->options.table[number - 1] = true;
     }
     return EXIT_DONE;
 }

@@ -87,9 +87,10 @@ gvc_result paper_measure(const paper_request *request, const paper_options *opti
         GVC_TRY(paper_measure_ours(request->mixed, &capture->cube, "mixed", options,
                                    &capture->result[PAPER_MIXED], error));
     }
-    if (request->reference && options->coded) {
+    if (request->reference && paper_codes(options)) {
         GVC_TRY(measure_reference(request->source, options, &capture->hausdorff_reference, error));
     }
-    if (request->zip && options->coded) GVC_TRY(measure_zip(request, options, capture, error));
+    if (request->zip && paper_codes(options))
+        GVC_TRY(measure_zip(request, options, capture, error));
     return GVC_OK;
 }

@@ -15,6 +15,7 @@
 #include "compare.h"
 
 #define PAPER_COMPONENTS 3
+#define PAPER_TABLES 3
 #define PAPER_REFERENCE_VERTICES 125
 #define PAPER_KB 1000.0
 
@@ -28,12 +29,17 @@ typedef struct paper_options {
     double crf;    /**< x264's rate factor, the same for all methods */
     uint32_t gop;  /**< frames per group of pictures, the same for all methods */
     unsigned threads;
-    size_t samples; /**< per direction of a distance; 0: as gvc_mesh_distance */
-    bool coded;     /**< code, decode and measure (Tables 2 and 3); else only Table 1 */
+    size_t samples;           /**< per direction of a distance; 0: as gvc_mesh_distance */
+    bool table[PAPER_TABLES]; /**< which are asked for; without 2 and 3 nothing is coded */
     /** Told now and then; false stops the measurement. `what` is a few words, such as "gis". */
     bool (*progress)(void *user, const char *what, uint64_t done, uint64_t total);
     void *user;
 } paper_options;
+
+/** Whether Table 2 or 3 is asked for. */
+static inline bool paper_codes(const paper_options *options) {
+    return options->table[1] || options->table[2];
+}
 
 /* ------------------------------------------------------------------------------------- Table 1 */
 

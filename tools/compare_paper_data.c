@@ -74,8 +74,8 @@ static void json_capture(const paper_capture *c, gvc_buffer *text) {
 void paper_print_json(const paper_capture *captures, size_t count, const paper_options *options,
                       gvc_buffer *text) {
     json_number(text, "{\"size\": ", options->size);
-    json_number(text, ", \"crf\": ", options->coded ? options->crf : NAN);
-    json_number(text, ", \"gop\": ", options->coded ? options->gop : NAN);
+    json_number(text, ", \"crf\": ", paper_codes(options) ? options->crf : NAN);
+    json_number(text, ", \"gop\": ", paper_codes(options) ? options->gop : NAN);
     json_number(text, ", \"ref_vertices\": ", PAPER_REFERENCE_VERTICES);
     text_append(text, ",\n \"captures\": [");
     for (size_t i = 0; i < count; i++) {

@@ -177,7 +177,7 @@ static gvc_result run_group(sequence *s, gvc_error *error) {
         s->first += count;
     }
     s->group.count = (size_t)(end - s->group.first_frame);
-    return s->options->coded ? code_group(s, error) : GVC_OK;
+    return paper_codes(s->options) ? code_group(s, error) : GVC_OK;
 }
 
 static gvc_result run(sequence *s, gvc_error *error) {
@@ -199,7 +199,7 @@ gvc_result paper_measure_gis(const gvc_source *source, const paper_cube *cube,
     GVC_CHECK(run(&s, error));
     GVC_CHECK(paper_result_set_mse(made, &s.images, error));
     made->segment_count = source->frame_count;
-    if (options->coded) {
+    if (paper_codes(options)) {
         compare_summarise("", s.frames, source->frame_count, &row);
         made->hausdorff = row.hausdorff_mean;
         made->rms = row.rms;

@@ -80,7 +80,7 @@ gvc_result paper_measure_ours(const gvc_source *source, const paper_cube *cube, 
     GVC_CHECK(encode(&o, source, &report, error));
     GVC_CHECK(paper_result_set_mse(made, &o.images, error));
     made->segment_count = report.segment_count;
-    if (options->coded) {
+    if (paper_codes(options)) {
         made->bytes = (double)report.byte_count;
         GVC_CHECK(measure(&o, source, made, error));
     }

@@ -98,7 +98,7 @@ static void print_mse(const paper_capture *captures, size_t count, gvc_buffer *t
     char label[LABEL];
     table t = {0};
     text_append(text,
-                "Table 1. Mean squared difference of consecutive 8-bit geometry images before "
+                "\nTable 1. Mean squared difference of consecutive 8-bit geometry images before "
                 "coding. 0..255 is the side of the smallest\ncube round all frames of the capture "
                 "(mixed: of that capture). The paper does not say whether it sums components.\n");
     add_head(&t, title, 6);
@@ -187,11 +187,10 @@ void paper_print_tables(const paper_capture *captures, size_t count, const paper
     char crf[TEXT_CELL];
     text_fixed(crf, options->crf, 1);
     text_format(text, "Geometry images of %u x %u samples", options->size, options->size);
-    if (options->coded) text_format(text, "; H.264 at crf %s", crf);
-    if (options->coded) text_format(text, ", groups of %u frames", options->gop);
-    text_append(text, ".\n\n");
-    print_mse(captures, count, text);
-    if (!options->coded) return;
-    print_hausdorff(captures, count, text);
-    print_bytes(captures, count, text);
+    if (paper_codes(options)) text_format(text, "; H.264 at crf %s", crf);
+    if (paper_codes(options)) text_format(text, ", groups of %u frames", options->gop);
+    text_append(text, ".\n");
+    if (options->table[0]) print_mse(captures, count, text);
+    if (options->table[1]) print_hausdorff(captures, count, text);
+    if (options->table[2]) print_bytes(captures, count, text);
 }

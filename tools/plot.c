@@ -176,7 +176,7 @@ static void draw_curve(const plot_curve *curve, const scales *s, gvc_buffer *tex
 }
 
 static void legend(const plot_panel *panel, const scales *s, gvc_buffer *text) {
-    double x = RIGHT - LEGEND_STEP * (double)panel->curve_count + 20, y = s->offset + 24;
+    double x = RIGHT - LEGEND_STEP * (double)panel->curve_count + 14, y = s->offset + 24;
     for (size_t c = 0; c < panel->curve_count; c++, x += LEGEND_STEP) {
         text_append(text, "<path class=\"curve\" stroke=\"");
         escape(text, panel->curve[c].color);

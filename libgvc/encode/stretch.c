@@ -2,17 +2,12 @@
 /** @file stretch.c  Where a parameterization stretches most. */
 #include "encode/stretch.h"
 
-#include <math.h>
-
-/* Square pixels below which a face counts as collapsed. */
-#define LEAST_AREA 1e-300
-
 /* Squared L2 stretch of a face: mean squared length on the surface of a unit step in the domain. */
 static double face_stretch(const gvc_halfedges *m, const double *uv, size_t f) {
     const uint32_t *v = m->vertex + 3 * f;
     double s1 = uv[2 * v[1]] - uv[2 * v[0]], t1 = uv[2 * v[1] + 1] - uv[2 * v[0] + 1];
     double s2 = uv[2 * v[2]] - uv[2 * v[0]], t2 = uv[2 * v[2] + 1] - uv[2 * v[0] + 1];
-    double twice = fmax(fabs(s1 * t2 - s2 * t1), LEAST_AREA), squared = 0;
+    double twice = s1 * t2 - s2 * t1, squared = 0;
     for (int c = 0; c < 3; c++) {
         double a = m->position[3 * v[1] + c] - m->position[3 * v[0] + c];
         double b = m->position[3 * v[2] + c] - m->position[3 * v[0] + c];
@@ -26,7 +21,7 @@ static bool is_inner(const gvc_halfedges *m, uint32_t vertex) {
     return m->twin[m->outgoing[vertex]] != GVC_NONE; /* of a border vertex it has none */
 }
 
-/* Greatest stretch but one around an inner vertex tells vertices of one face apart. */
+/* What tells the vertices of one face apart. */
 static double stretch_around(const gvc_halfedges *m, const double *uv, uint32_t vertex) {
     double sum = 0;
     uint32_t h = m->outgoing[vertex];
