@@ -31,6 +31,7 @@ typedef struct comparison {
     cli_progress progress;
     char what[160]; /* being shown */
     const char *name;
+    uint64_t first_frame; /* of --frames */
     paper_capture *capture;
     size_t capture_count;
 } comparison;
@@ -126,7 +127,8 @@ static bool show_progress(void *user, const char *what, uint64_t done, uint64_t 
 }
 
 /* Leaves only the frames of --frames in the list. */
-static gvc_result take_range(const char *range, frame_list *list, gvc_error *error) {
+static gvc_result take_range(const char *range, frame_list *list, uint64_t *first_frame,
+                             gvc_error *error) {
     uint64_t first = 0, last = list->count - 1;
     if (range && !cli_range(range, list->count, &first, &last)) {
         return gvc_fail(error, GVC_ERROR_ARGUMENT, "there are no frames %s of %zu", range,
@@ -140,13 +142,14 @@ static gvc_result take_range(const char *range, frame_list *list, gvc_error *err
         }
     }
     list->count = (size_t)(last - first + 1);
+    *first_frame = first;
     return GVC_OK;
 }
 
-static gvc_result list_frames(const comparison *c, char *const *argument, int count,
-                              frame_list *list, gvc_error *error) {
+static gvc_result list_frames(comparison *c, char *const *argument, int count, frame_list *list,
+                              gvc_error *error) {
     GVC_TRY(frame_list_make(argument, count, c->arguments->any_order, list, error));
-    gvc_result result = take_range(c->arguments->frames, list, error);
+    gvc_result result = take_range(c->arguments->frames, list, &c->first_frame, error);
     if (result != GVC_OK) frame_list_free(list);
     return result;
 }
@@ -167,6 +170,8 @@ static gvc_result measure(comparison *c, const job *j, paper_capture *capture, g
         capture->row = j->row ? paper_row_named(j->row) : paper_row_of_capture(capture->name);
         c->name = capture->name;
         result = paper_measure(&request, &c->options, capture, error);
+        /* as numbered in the whole capture */
+        if (result != GVC_OK && error->frame >= 0) error->frame += (int64_t)c->first_frame;
         cli_progress_end(&c->progress);
     }
     frame_list_free(&list);

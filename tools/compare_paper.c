@@ -70,27 +70,42 @@ static gvc_result measure_reference(const gvc_source *source, const paper_option
 
 /* ----------------------------------------------------------------------------------- everything */
 
+/* Adds the file of the frame an error is about. */
+static gvc_result name_file(const gvc_source *source, gvc_result result, gvc_error *error) {
+    if (result == GVC_OK || !error || error->where[0] || error->frame < 0 || !source->name ||
+        (uint64_t)error->frame >= source->frame_count) {
+        return result;
+    }
+    return gvc_fail_in(error, result, source->name(source->user, (uint64_t)error->frame));
+}
+
+static gvc_result measure_capture(const paper_request *request, const paper_options *options,
+                                  paper_capture *capture, gvc_error *error) {
+    const gvc_source *source = request->source;
+    GVC_TRY(paper_find_cube(source, options, &capture->cube, error));
+    if (request->method[PAPER_GIS]) {
+        GVC_TRY(
+            paper_measure_gis(source, &capture->cube, options, &capture->result[PAPER_GIS], error));
+    }
+    if (request->method[PAPER_FIXED]) {
+        GVC_TRY(paper_measure_ours(source, &capture->cube, "fixed", options,
+                                   &capture->result[PAPER_FIXED], error));
+    }
+    if (request->reference && options->table[1]) {
+        GVC_TRY(measure_reference(source, options, &capture->hausdorff_reference, error));
+    }
+    if (request->zip && options->table[2]) GVC_TRY(measure_zip(request, options, capture, error));
+    return GVC_OK;
+}
+
 gvc_result paper_measure(const paper_request *request, const paper_options *options,
                          paper_capture *capture, gvc_error *error) {
     capture->frame_count = request->source->frame_count;
     capture->hausdorff_reference = capture->zip_bytes = NAN;
-    GVC_TRY(paper_find_cube(request->source, options, &capture->cube, error));
-    if (request->method[PAPER_GIS]) {
-        GVC_TRY(paper_measure_gis(request->source, &capture->cube, options,
-                                  &capture->result[PAPER_GIS], error));
-    }
-    if (request->method[PAPER_FIXED]) {
-        GVC_TRY(paper_measure_ours(request->source, &capture->cube, "fixed", options,
-                                   &capture->result[PAPER_FIXED], error));
-    }
-    if (request->method[PAPER_MIXED] && request->mixed) {
-        GVC_TRY(paper_measure_ours(request->mixed, &capture->cube, "mixed", options,
-                                   &capture->result[PAPER_MIXED], error));
-    }
-    if (request->reference && paper_codes(options)) {
-        GVC_TRY(measure_reference(request->source, options, &capture->hausdorff_reference, error));
-    }
-    if (request->zip && paper_codes(options))
-        GVC_TRY(measure_zip(request, options, capture, error));
-    return GVC_OK;
+    gvc_result result = measure_capture(request, options, capture, error);
+    if (result != GVC_OK) return name_file(request->source, result, error);
+    if (!request->method[PAPER_MIXED] || !request->mixed) return GVC_OK;
+    result = paper_measure_ours(request->mixed, &capture->cube, "mixed", options,
+                                &capture->result[PAPER_MIXED], error);
+    return name_file(request->mixed, result, error);
 }

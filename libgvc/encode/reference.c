@@ -176,6 +176,10 @@ static gvc_result farthest_from_cut(const gvc_frame_work *work, uint32_t *vertex
     }
     gvc_result result = farthest(&work->halfedges, on_cut, count, vertex, error);
     free(on_cut);
+    uint32_t node, edge;
+    size_t place;
+    gvc_cut_graph_locate(graph, *vertex, &node, &edge, &place);
+    if (node != GVC_NONE || edge != GVC_NONE) *vertex = GVC_NONE; /* all vertices are on it */
     return result;
 }
 
@@ -235,8 +239,7 @@ static gvc_result cut_again(growth *g, size_t paths, gvc_error *error) {
     return GVC_OK;
 }
 
-/* ----------------------------------------------------------------------------------------- image
- */
+/* ---------------------------------------------------------------------------------------- image */
 
 /* Lays out and samples the cut of least stretch; if that gives charts that fold, the next best. */
 static gvc_result make_image(growth *g, uint32_t size, gvc_segment *segment, double *image,
