@@ -281,7 +281,7 @@ static gvc_result image_one(void *user, size_t index, gvc_error *error) {
     }
     free(image);
     free(luma);
-    return result == GVC_ERROR_MESH ? GVC_OK : result;
+    return context->unfit[index] ? GVC_OK : result;
 }
 
 static void drop_images(gvc_group *group, size_t from, size_t end) {
