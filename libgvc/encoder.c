@@ -13,6 +13,7 @@
 #include "encode/cut.h"
 #include "encode/group.h"
 #include "encode/rate.h"
+#include "encode/tap.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -29,6 +30,7 @@
 typedef struct encoder {
     const gvc_source *source;
     const gvc_sink *sink;
+    const gvc_image_tap *tap; /* NULL: nobody looks on */
     gvc_encode_options options;
     gvc_scan_frame *facts;
     gvc_encode_report report;
@@ -308,6 +310,10 @@ static gvc_result fit_one(void *user, size_t index, gvc_error *error) {
     e->group.frame[e->group.count + index].luma = luma;
     GVC_TRY(gvc_chart_fit(&c->work[index], &c->chart[index], &segment->weld,
                           &segment->image_options, c->image[index], error));
+    if (e->tap) {
+        GVC_TRY(
+            e->tap->image(e->tap->user, c->work[index].number, c->image[index], e->size, error));
+    }
     gvc_segment_quantise(segment, c->image[index], e->group.layout, luma);
     return GVC_OK;
 }
@@ -409,13 +415,14 @@ static gvc_result encode_all(encoder *e, gvc_error *error) {
     return gvc_writer_finish(e->writer, error);
 }
 
-gvc_result gvc_encode(const gvc_source *source, const gvc_sink *sink,
-                      const gvc_encode_options *options, gvc_encode_report *report,
-                      gvc_error *error) {
+gvc_result gvc_encode_tapped(const gvc_source *source, const gvc_sink *sink,
+                             const gvc_encode_options *options, const gvc_image_tap *tap,
+                             gvc_encode_report *report, gvc_error *error) {
     GVC_TRY(check_options(options, source, error));
     encoder *e = gvc_alloc(1, sizeof *e);
     if (!e) return gvc_fail_memory(error);
-    *e = (encoder){.source = source, .sink = sink, .options = *options, .crf = FIRST_CRF};
+    *e = (encoder){
+        .source = source, .sink = sink, .tap = tap, .options = *options, .crf = FIRST_CRF};
     gvc_tracker_options tracking;
     gvc_tracker_options_init(&tracking);
     tracking.prior_weight = options->prior_weight;
@@ -438,4 +445,10 @@ gvc_result gvc_encode(const gvc_source *source, const gvc_sink *sink,
     free(e->facts);
     free(e);
     return gvc_explain(error, result);
+}
+
+gvc_result gvc_encode(const gvc_source *source, const gvc_sink *sink,
+                      const gvc_encode_options *options, gvc_encode_report *report,
+                      gvc_error *error) {
+    return gvc_encode_tapped(source, sink, options, NULL, report, error);
 }

@@ -1,16 +1,22 @@
 /* SPDX-License-Identifier: MIT */
 /** @file cmd_compare.c  gvc compare. */
-#include "cli.h"
+#include "cmd_compare.h"
 #include "compare.h"
 #include "frames.h"
 
 #include <errno.h>
 #include <getopt.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#define DEFAULT_METHODS "zip,draco,gvc"
+#define DEFAULT_QP "7,8,9,10,11,12,13,14"
+#define DEFAULT_MAX_RMS "0.2%,0.1%,0.05%"
+
 static const char usage[] =
     "usage: gvc compare [options] FRAMES...\n"
+    "       gvc compare --paper [options] CAPTURE...\n"
     "\n"
     "Codes the frames in several ways and prints bytes per frame, mean, RMS and Hausdorff distance "
     "to the original\n"
@@ -18,21 +24,53 @@ static const char usage[] =
     "decode.\n"
     "\n"
     "      --methods LIST    of zip, draco, gvc (default: all)\n"
-    "      --qp LIST         Draco's bits per coordinate (default 7,8,9,10,11,12,13,14)\n"
-    "  -e, --max-rms LIST    gvc's qualities (default 0.2%,0.1%,0.05%)\n"
+    "      --qp LIST         Draco's bits per coordinate (default " DEFAULT_QP ")\n"
+    "  -e, --max-rms LIST    gvc's qualities (default " DEFAULT_MAX_RMS ")\n"
     "      --json, --csv     machine-readable\n"
     "      --any-order       take files as given: no check of numbers\n"
     "  -j, --jobs N          threads\n"
-    "  -q, --quiet           no progress\n";
+    "  -q, --quiet           no progress\n"
+    "\n"
+    "With --paper: the three tables of the paper (Tung and Matsuyama, Sect. 5) for each capture "
+    "(folder or pattern; or all\n"
+    "files of one capture), beside the paper's own figures where the folder is named after one of "
+    "its captures.\n"
+    "\n"
+    "      --methods LIST    of gis (every frame cut by itself: Gu, Gortler and Hoppe 2002), fixed "
+    "(this method), mixed\n"
+    "                        (this method on --mixed), ref (meshes simplified to 125 vertices), "
+    "zip (default: all)\n"
+    "      --mixed FRAMES    the same motion at varying resolution; once for each capture, in "
+    "their order\n"
+    "      --paper-row NAME  row of the paper to print beside a capture; once for each, in their "
+    "order\n"
+    "      --tables LIST     of 1 (change of images in time), 2 (distance), 3 (bytes) (default: "
+    "all); 1 alone is quick\n"
+    "      --frames RANGE    part of every capture, such as 0-59\n"
+    "      --size N          samples a side (default 128)\n"
+    "      --crf X           x264's rate factor for gis, fixed and mixed "
+    "(default " COMPARE_PAPER_CRF ")\n"
+    "      --gop N           frames per group of pictures, likewise (default 250, x264's own)\n"
+    "      --plot FILE.svg   draw the change of the images over time (the paper's Fig. 9)\n"
+    "  -f, --force           replace FILE.svg\n";
 
-enum { OPT_METHODS = 256, OPT_QP, OPT_JSON, OPT_CSV, OPT_ANY_ORDER };
+enum {
+    OPT_METHODS = 256,
+    OPT_QP,
+    OPT_JSON,
+    OPT_CSV,
+    OPT_ANY_ORDER,
+    OPT_PAPER,
+    OPT_MIXED,
+    OPT_PAPER_ROW,
+    OPT_TABLES,
+    OPT_FRAMES,
+    OPT_SIZE,
+    OPT_CRF,
+    OPT_GOP,
+    OPT_PLOT
+};
 enum { MAX_ROWS = 64 };
-
-typedef struct compare_arguments {
-    const char *methods, *qp, *max_rms;
-    bool json, csv, any_order, quiet;
-    unsigned threads;
-} compare_arguments;
 
 typedef struct comparison {
     const compare_arguments *arguments;
@@ -42,6 +80,98 @@ typedef struct comparison {
     compare_row row[MAX_ROWS];
     size_t count;
 } comparison;
+
+static bool add_item(compare_list *list, char *item) {
+    if (list->count == (int)(sizeof list->item / sizeof *list->item)) return false;
+    list->item[list->count++] = item;
+    return true;
+}
+
+/* Options of --paper; EXIT_DONE to go on, EXIT_USAGE for a bad one. */
+static int set_paper_option(compare_arguments *a, int option, char *value) {
+    uint64_t number;
+    switch (option) {
+    case OPT_PAPER:
+        a->paper = true;
+        return EXIT_DONE;
+    case OPT_MIXED:
+        return add_item(&a->mixed, value) ? EXIT_DONE : cli_usage("compare", "too many captures");
+    case OPT_PAPER_ROW:
+        return add_item(&a->row, value) ? EXIT_DONE : cli_usage("compare", "too many captures");
+    case OPT_TABLES:
+        a->tables = value;
+        return EXIT_DONE;
+    case OPT_FRAMES:
+        a->frames = value;
+        return EXIT_DONE;
+    case OPT_PLOT:
+        a->plot = value;
+        return EXIT_DONE;
+    case 'f':
+        a->force = true;
+        return EXIT_DONE;
+    case OPT_SIZE:
+        if (!cli_uint(value, 16, 2049, &number)) return cli_usage("compare", "bad size");
+        a->size = (uint32_t)number;
+        return EXIT_DONE;
+    case OPT_GOP:
+        if (!cli_uint(value, 1, 10000, &number)) return cli_usage("compare", "bad group length");
+        a->gop = (uint32_t)number;
+        return EXIT_DONE;
+    case OPT_CRF:
+        if (!cli_double(value, &a->crf) || a->crf < -12 || a->crf > 51)
+            return cli_usage("compare", "crf must be from -12 to 51");
+        return EXIT_DONE;
+    default:
+        return cli_usage("compare", "bad options");
+    }
+}
+
+static int set_option(compare_arguments *a, int option, char *value) {
+    uint64_t number;
+    switch (option) {
+    case OPT_METHODS:
+        a->methods = value;
+        return EXIT_DONE;
+    case OPT_QP:
+        a->qp = value;
+        return EXIT_DONE;
+    case 'e':
+        a->max_rms = value;
+        return EXIT_DONE;
+    case OPT_JSON:
+        a->json = true;
+        return EXIT_DONE;
+    case OPT_CSV:
+        a->csv = true;
+        return EXIT_DONE;
+    case OPT_ANY_ORDER:
+        a->any_order = true;
+        return EXIT_DONE;
+    case 'j':
+        if (!cli_uint(value, 0, 256, &number)) return cli_usage("compare", "bad number of jobs");
+        a->threads = (unsigned)number;
+        return EXIT_DONE;
+    case 'q':
+        a->quiet = true;
+        return EXIT_DONE;
+    case 'h':
+        fputs(usage, stdout);
+        return -1;
+    default:
+        return set_paper_option(a, option, value);
+    }
+}
+
+/* An option of the other kind of comparison would be without effect. */
+static int check_kind(const compare_arguments *a) {
+    bool plain = a->qp || a->max_rms;
+    bool paper = a->mixed.count || a->row.count || a->tables || a->frames || a->plot || a->size ||
+                 a->gop || a->force || !isnan(a->crf);
+    if (a->paper && plain) return cli_usage("compare", "--qp and --max-rms are not of --paper");
+    if (!a->paper && paper) return cli_usage("compare", "this option is only for --paper");
+    return EXIT_DONE;
+}
 
 static int parse(compare_arguments *a, int argc, char **argv) {
     static const struct option options[] = {{"methods", required_argument, NULL, OPT_METHODS},
@@ -53,51 +183,28 @@ static int parse(compare_arguments *a, int argc, char **argv) {
                                             {"jobs", required_argument, NULL, 'j'},
                                             {"quiet", no_argument, NULL, 'q'},
                                             {"help", no_argument, NULL, 'h'},
+                                            {"paper", no_argument, NULL, OPT_PAPER},
+                                            {"mixed", required_argument, NULL, OPT_MIXED},
+                                            {"paper-row", required_argument, NULL, OPT_PAPER_ROW},
+                                            {"tables", required_argument, NULL, OPT_TABLES},
+                                            {"frames", required_argument, NULL, OPT_FRAMES},
+                                            {"size", required_argument, NULL, OPT_SIZE},
+                                            {"crf", required_argument, NULL, OPT_CRF},
+                                            {"gop", required_argument, NULL, OPT_GOP},
+                                            {"plot", required_argument, NULL, OPT_PLOT},
+                                            {"force", no_argument, NULL, 'f'},
                                             {NULL, 0, NULL, 0}};
     int option;
-    uint64_t number;
-    while ((option = getopt_long(argc, argv, "e:j:qh", options, NULL)) != -1) {
-        switch (option) {
-        case OPT_METHODS:
-            a->methods = optarg;
-            break;
-        case OPT_QP:
-            a->qp = optarg;
-            break;
-        case 'e':
-            a->max_rms = optarg;
-            break;
-        case OPT_JSON:
-            a->json = true;
-            break;
-        case OPT_CSV:
-            a->csv = true;
-            break;
-        case OPT_ANY_ORDER:
-            a->any_order = true;
-            break;
-        case 'j':
-            if (!cli_uint(optarg, 0, 256, &number))
-                return cli_usage("compare", "bad number of jobs");
-            a->threads = (unsigned)number;
-            break;
-        case 'q':
-            a->quiet = true;
-            break;
-        case 'h':
-            fputs(usage, stdout);
-            return -1;
-        default:
-            return cli_usage("compare", "bad options");
-        }
+    while ((option = getopt_long(argc, argv, "e:j:qhf", options, NULL)) != -1) {
+        int status = set_option(a, option, optarg);
+        if (status != EXIT_DONE) return status;
     }
     if (a->json && a->csv) return cli_usage("compare", "choose one of --json and --csv");
     if (optind == argc) return cli_usage("compare", "name the frames");
-    return EXIT_DONE;
+    return check_kind(a);
 }
 
-/* Copies the next item of a comma-separated list; false at its end. */
-static bool next_item(const char **list, char *item, size_t room) {
+bool compare_next_item(const char **list, char *item, size_t room) {
     if (!*list || **list == '\0') return false;
     const char *comma = strchr(*list, ',');
     size_t length = comma ? (size_t)(comma - *list) : strlen(*list);
@@ -110,8 +217,7 @@ static void announce(const comparison *c, const char *method) {
     if (!c->arguments->quiet) fprintf(stderr, "measuring %s\n", method);
 }
 
-/* The bytes of a frame that came as an OFF file go into the archive as they are. */
-static gvc_result original_off(void *user, uint64_t frame, gvc_buffer *bytes, gvc_error *error) {
+gvc_result compare_original_off(void *user, uint64_t frame, gvc_buffer *bytes, gvc_error *error) {
     const frame_list *list = user;
     const char *path = list->path[frame], *dot = strrchr(path, '.');
     if (!dot || strcmp(dot, ".off") != 0) return GVC_OK;
@@ -131,15 +237,15 @@ static gvc_result original_off(void *user, uint64_t frame, gvc_buffer *bytes, gv
 
 static gvc_result add_zip(comparison *c, gvc_error *error) {
     announce(c, "zip");
-    gvc_result result = compare_zip(&c->source, original_off, &c->row[c->count], error);
+    gvc_result result = compare_zip(&c->source, compare_original_off, &c->row[c->count], error);
     if (result == GVC_OK) c->count++;
     return result;
 }
 
 static gvc_result add_draco(comparison *c, gvc_error *error) {
-    const char *list = c->arguments->qp;
+    const char *list = c->arguments->qp ? c->arguments->qp : DEFAULT_QP;
     char item[32];
-    while (c->count < MAX_ROWS && next_item(&list, item, sizeof item)) {
+    while (c->count < MAX_ROWS && compare_next_item(&list, item, sizeof item)) {
         uint64_t bits;
         if (!cli_uint(item, 1, 30, &bits)) {
             snprintf(error->message, sizeof error->message, "'%s' is not a number of bits 1-30",
@@ -156,9 +262,9 @@ static gvc_result add_draco(comparison *c, gvc_error *error) {
 }
 
 static gvc_result add_gvc(comparison *c, gvc_error *error) {
-    const char *list = c->arguments->max_rms;
+    const char *list = c->arguments->max_rms ? c->arguments->max_rms : DEFAULT_MAX_RMS;
     char item[32], method[48];
-    while (c->count < MAX_ROWS && next_item(&list, item, sizeof item)) {
+    while (c->count < MAX_ROWS && compare_next_item(&list, item, sizeof item)) {
         gvc_encode_options options;
         double bound;
         bool relative;
@@ -181,9 +287,9 @@ static gvc_result add_gvc(comparison *c, gvc_error *error) {
 }
 
 static gvc_result measure(comparison *c, gvc_error *error) {
-    const char *list = c->arguments->methods;
+    const char *list = c->arguments->methods ? c->arguments->methods : DEFAULT_METHODS;
     char item[32];
-    while (c->count < MAX_ROWS && next_item(&list, item, sizeof item)) {
+    while (c->count < MAX_ROWS && compare_next_item(&list, item, sizeof item)) {
         gvc_result result;
         if (strcmp(item, "zip") == 0) {
             result = add_zip(c, error);
@@ -216,12 +322,12 @@ static int print(const comparison *c) {
 }
 
 int cmd_compare(int argc, char **argv) {
-    compare_arguments arguments = {
-        .methods = "zip,draco,gvc", .qp = "7,8,9,10,11,12,13,14", .max_rms = "0.2%,0.1%,0.05%"};
+    compare_arguments arguments = {.crf = NAN};
     frame_list list;
     gvc_error error;
     int status = parse(&arguments, argc, argv);
     if (status != EXIT_DONE) return status < 0 ? EXIT_DONE : status;
+    if (arguments.paper) return compare_paper_command(&arguments, argv + optind, argc - optind);
     gvc_error_init(&error);
     if (frame_list_make(argv + optind, argc - optind, arguments.any_order, &list, &error) !=
         GVC_OK) {

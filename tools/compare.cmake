@@ -18,8 +18,22 @@ add_library(gvc_compare OBJECT
   "${CMAKE_CURRENT_LIST_DIR}/compare_draco.cc"
   "${CMAKE_CURRENT_LIST_DIR}/compare_gvc.c"
   "${CMAKE_CURRENT_LIST_DIR}/compare_print.c"
+  "${CMAKE_CURRENT_LIST_DIR}/compare_text.c"
   "${CMAKE_CURRENT_LIST_DIR}/compare_zip.c"
+  "${CMAKE_CURRENT_LIST_DIR}/plot.c"
+  "${CMAKE_CURRENT_LIST_DIR}/simplify.c"
   "${CMAKE_CURRENT_LIST_DIR}/json.c")
+if(GVC_ENCODER)
+  target_sources(gvc_compare PRIVATE
+    "${CMAKE_CURRENT_LIST_DIR}/compare_paper.c"
+    "${CMAKE_CURRENT_LIST_DIR}/compare_paper_data.c"
+    "${CMAKE_CURRENT_LIST_DIR}/compare_paper_gis.c"
+    "${CMAKE_CURRENT_LIST_DIR}/compare_paper_images.c"
+    "${CMAKE_CURRENT_LIST_DIR}/compare_paper_ours.c"
+    "${CMAKE_CURRENT_LIST_DIR}/compare_paper_plot.c"
+    "${CMAKE_CURRENT_LIST_DIR}/compare_paper_print.c"
+    "${CMAKE_CURRENT_LIST_DIR}/compare_paper_rows.c")
+endif()
 target_include_directories(gvc_compare PUBLIC
   "${CMAKE_CURRENT_LIST_DIR}" "${PROJECT_SOURCE_DIR}/libgvc/include" "${PROJECT_SOURCE_DIR}/libgvc")
 target_link_libraries(gvc_compare PUBLIC gvc gvc_base PkgConfig::LIBZIP PkgConfig::DRACO)

@@ -59,6 +59,11 @@ gvc_result compare_gvc(const gvc_source *source, const char *method,
                        const gvc_encode_options *encode, const compare_options *options,
                        compare_row *row, gvc_error *error);
 
+/** Decodes a `.gvc` file, measures each frame against that of `source` and sets errors and decoding
+ * time in `frames`, one per frame of the source, nothing else. */
+gvc_result compare_decode(const gvc_source *source, const gvc_buffer *file,
+                          const compare_options *options, compare_frame *frames, gvc_error *error);
+
 /* Printers append to `text`; out of memory shows in `text->failed`. They do not depend on the
  * locale.
  */

@@ -94,9 +94,8 @@ static gvc_result run_batch(batch *b, gvc_decoder *decoder, unsigned threads, gv
     return result;
 }
 
-static gvc_result decode_all(const gvc_source *source, const gvc_buffer *file,
-                             const compare_options *options, compare_frame *frames,
-                             gvc_error *error) {
+gvc_result compare_decode(const gvc_source *source, const gvc_buffer *file,
+                          const compare_options *options, compare_frame *frames, gvc_error *error) {
     gvc_reader *reader = NULL;
     gvc_decoder *decoder = NULL;
     gvc_result result;
@@ -136,7 +135,7 @@ gvc_result compare_gvc(const gvc_source *source, const char *method,
     compare_frame *frames = gvc_alloc(source->frame_count, sizeof *frames);
     if (!frames) return gvc_fail_memory(error);
     GVC_CHECK(encode_all(source, encode, &file, &seconds, error));
-    GVC_CHECK(decode_all(source, &file, options, frames, error));
+    GVC_CHECK(compare_decode(source, &file, options, frames, error));
     compare_summarise(method, frames, source->frame_count, row);
     /* Frames are coded together: their share of the file and of the time is an equal one. */
     row->bytes = (double)file.size / (double)source->frame_count;
