@@ -253,7 +253,7 @@ static gvc_result make_image(growth *g, uint32_t size, gvc_segment *segment, dou
         result = gvc_segment_layout(segment, g->work, size, 1, error);
         if (result == GVC_OK) {
             result = gvc_frame_image(g->work, &segment->sides, &segment->weld,
-                                     &segment->image_options, image, );
+                                     &segment->image_options, image, error);
         }
         g->stretch[paths] = INFINITY;
     } while (result == GVC_ERROR_MESH && isfinite(g->stretch[best_of(g)]));
