@@ -1,13 +1,29 @@
 /* SPDX-License-Identifier: MIT */
-/** @file handles.c  Tree-cotree decomposition, and shortening of the graph it gives. */
+/** @file handles.c  Greedy systems of loops, and the two loops of one handle. */
 #include "descriptor/handles.h"
 
 #include "base/memory.h"
-#include "descriptor/graph_edit.h"
-#include "descriptor/wall.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+
+void gvc_handle_free(gvc_handle *handle) {
+    free(handle->loop[0]);
+    free(handle->loop[1]);
+    *handle = (gvc_handle){0};
+}
+
+void gvc_handle_turn(gvc_handle *handle) {
+    uint32_t *first = handle->loop[0];
+    size_t count = handle->count[0];
+    for (size_t i = 0; i < count / 2; i++) {
+        uint32_t v = first[i];
+        first[i] = first[count - 1 - i];
+        first[count - 1 - i] = v;
+    }
+    *handle = (gvc_handle){{handle->loop[1], first}, {handle->count[1], count}};
+}
 
 /* ---------------------------------------------------------------------------------- tree-cotree */
 
@@ -22,16 +38,21 @@ typedef struct loop_edge {
 } loop_edge;
 
 typedef struct decomposition {
+    const gvc_halfedges *mesh;
+    uint8_t *wall;      /* per halfedge: belongs to the obstacles */
+    uint8_t *blocked;   /* per vertex: so does this */
     double *distance;   /* per vertex, along the edges of the mesh */
     uint32_t *toward;   /* per vertex: halfedge that comes from its parent in the tree */
     queue_entry *queue; /* binary heap */
     size_t queue_count;
-    loop_edge *edge; /* those not in the tree, longest loop first */
+    loop_edge *edge; /* those not in the tree, longest loop first; then those that close loops */
     size_t edge_count;
     uint32_t *set; /* per face: union-find of the dual tree */
 } decomposition;
 
 static void decomposition_free(decomposition *d) {
+    free(d->wall);
+    free(d->blocked);
     free(d->distance);
     free(d->toward);
     free(d->queue);
@@ -39,13 +60,60 @@ static void decomposition_free(decomposition *d) {
     free(d->set);
 }
 
-static bool decomposition_allocate(decomposition *d, const gvc_halfedges *mesh) {
-    d->distance = gvc_alloc(mesh->vertex_count, sizeof *d->distance);
-    d->toward = gvc_alloc(mesh->vertex_count, sizeof *d->toward);
-    d->queue = gvc_alloc(3 * mesh->face_count + 1, sizeof *d->queue);
-    d->edge = gvc_alloc(3 * mesh->face_count, sizeof *d->edge);
+static void mark_obstacles(const gvc_halfedges *mesh, const gvc_obstacles *obstacles, uint8_t *wall,
+                           uint8_t *blocked) {
+    const gvc_cut_graph *graph = obstacles->graph;
+    for (size_t n = 0; n < graph->node_count; n++) blocked[graph->node[n].vertex] = 1;
+    for (size_t i = 0; i < obstacles->vertex_count; i++)
+        if (obstacles->vertex[i] != GVC_NONE) blocked[obstacles->vertex[i]] = 1;
+    for (size_t e = 0; e < graph->edge_count; e++)
+        for (size_t i = 0; i + 1 < graph->edge[e].vertex_count; i++) {
+            const uint32_t *v = graph->edge[e].vertex + i;
+            uint32_t h = gvc_halfedge_between(mesh, v[0], v[1]);
+            blocked[v[0]] = blocked[v[1]] = 1;
+            wall[h] = wall[mesh->twin[h]] = 1;
+        }
+}
+
+/* Splits the edges between two blocked vertices that are no obstacles themselves. Then loops along
+ * the edges between free vertices go everywhere where loops on the surface can go. */
+static gvc_result loosen(gvc_halfedges *mesh, const gvc_obstacles *obstacles, gvc_error *error) {
+    size_t halfedges = 3 * mesh->face_count, count = 0;
+    uint8_t *wall = gvc_alloc(halfedges, 1), *blocked = gvc_alloc(mesh->vertex_count, 1);
+    uint32_t *end = gvc_alloc(halfedges, sizeof *end); /* two per edge */
+    gvc_result result = wall && blocked && end ? GVC_OK : gvc_fail_memory(error);
+    if (result == GVC_OK) mark_obstacles(mesh, obstacles, wall, blocked);
+    for (uint32_t h = 0; result == GVC_OK && h < halfedges; h++) {
+        uint32_t a = mesh->vertex[h], b = mesh->vertex[gvc_next(h)];
+        if (mesh->twin[h] < h || !blocked[a] || !blocked[b] || wall[h]) continue;
+        end[count++] = a;
+        end[count++] = b;
+    }
+    for (size_t i = 0; result == GVC_OK && i < count; i += 2) {
+        uint32_t middle, h = gvc_halfedge_between(mesh, end[i], end[i + 1]);
+        result = gvc_halfedges_split(mesh, h, 0.5, &middle, error);
+    }
+    free(wall);
+    free(blocked);
+    free(end);
+    return result;
+}
+
+static bool decomposition_set(decomposition *d, const gvc_halfedges *mesh,
+                              const gvc_obstacles *obstacles) {
+    size_t vertices = mesh->vertex_count, halfedges = 3 * mesh->face_count;
+    *d = (decomposition){.mesh = mesh};
+    d->wall = gvc_alloc(halfedges, 1);
+    d->blocked = gvc_alloc(vertices, 1);
+    d->distance = gvc_alloc(vertices, sizeof *d->distance);
+    d->toward = gvc_alloc(vertices, sizeof *d->toward);
+    d->queue = gvc_alloc(halfedges + 1, sizeof *d->queue);
+    d->edge = gvc_alloc(halfedges, sizeof *d->edge);
     d->set = gvc_alloc(mesh->face_count, sizeof *d->set);
-    return d->distance && d->toward && d->queue && d->edge && d->set;
+    if (!d->wall || !d->blocked || !d->distance || !d->toward || !d->queue || !d->edge || !d->set)
+        return false;
+    mark_obstacles(mesh, obstacles, d->wall, d->blocked);
+    return true;
 }
 
 static void push(decomposition *d, double distance, uint32_t vertex) {
@@ -71,14 +139,16 @@ static queue_entry pop(decomposition *d) {
     return top;
 }
 
-/* Shortest path tree along mesh edges. Each halfedge is pushed at most once, so the queue is large
- * enough. */
-static void grow_tree(decomposition *d, const gvc_halfedges *mesh, uint32_t root) {
+/* Shortest path tree along edges between free vertices. Each halfedge is pushed at most once, so
+ * the queue is large enough. */
+static void grow_tree(decomposition *d, uint32_t root) {
+    const gvc_halfedges *mesh = d->mesh;
     for (size_t v = 0; v < mesh->vertex_count; v++) {
         d->distance[v] = INFINITY;
         d->toward[v] = GVC_NONE;
     }
     d->distance[root] = 0;
+    d->queue_count = 0;
     push(d, 0, root);
     while (d->queue_count > 0) {
         queue_entry now = pop(d);
@@ -87,7 +157,7 @@ static void grow_tree(decomposition *d, const gvc_halfedges *mesh, uint32_t root
         do {
             uint32_t to = mesh->vertex[gvc_next(h)];
             double through = now.distance + gvc_halfedge_length(mesh, h);
-            if (through < d->distance[to]) {
+            if (!d->blocked[to] && through < d->distance[to]) {
                 d->distance[to] = through;
                 d->toward[to] = h;
                 push(d, through, to);
@@ -103,10 +173,13 @@ static int longer_first(const void *left, const void *right) {
     return a->h < b->h ? -1 : a->h > b->h;
 }
 
-static void list_loops(decomposition *d, const gvc_halfedges *mesh) {
+static void list_edges(decomposition *d) {
+    const gvc_halfedges *mesh = d->mesh;
+    d->edge_count = 0;
     for (uint32_t h = 0; h < 3 * mesh->face_count; h++) {
         uint32_t a = mesh->vertex[h], b = mesh->vertex[gvc_next(h)];
         if (mesh->twin[h] < h || d->toward[b] == h || d->toward[a] == mesh->twin[h]) continue;
+        if (d->wall[h]) continue;
         double length = d->distance[a] + d->distance[b] + gvc_halfedge_length(mesh, h);
         d->edge[d->edge_count++] = (loop_edge){length, h};
     }
@@ -118,166 +191,238 @@ static uint32_t set_of(decomposition *d, uint32_t face) {
     return face;
 }
 
-/* The tree's path from the root to a vertex joins the wall. */
-static void mark_branch(const decomposition *d, const gvc_halfedges *mesh, uint32_t vertex,
-                        uint8_t *wall) {
-    for (uint32_t h = d->toward[vertex]; h != GVC_NONE && !wall[h]; h = d->toward[mesh->vertex[h]])
-        wall[h] = wall[mesh->twin[h]] = 1;
-}
-
-/* Kruskal's algorithm for the dual tree; the edges it leaves close the 2 * genus loops. */
-static void mark_loops(decomposition *d, const gvc_halfedges *mesh, uint8_t *wall) {
-    for (uint32_t f = 0; f < mesh->face_count; f++) d->set[f] = f;
+/* Kruskal's algorithm for the dual tree; the edges it leaves close the loops, those of handles and
+ * one round each part of the obstacles, which is of infinite length. */
+static void find_loops(decomposition *d, uint32_t root) {
+    size_t loops = 0;
+    grow_tree(d, root);
+    list_edges(d);
+    for (uint32_t f = 0; f < d->mesh->face_count; f++) d->set[f] = f;
     for (size_t i = 0; i < d->edge_count; i++) {
-        uint32_t h = d->edge[i].h, twin = mesh->twin[h];
-        uint32_t a = set_of(d, h / 3), b = set_of(d, twin / 3);
-        if (a != b) {
+        uint32_t a = set_of(d, d->edge[i].h / 3), b = set_of(d, d->mesh->twin[d->edge[i].h] / 3);
+        if (a != b)
             d->set[a < b ? b : a] = a < b ? a : b;
-            continue;
-        }
-        mark_branch(d, mesh, mesh->vertex[h], wall);
-        mark_branch(d, mesh, mesh->vertex[twin], wall);
-        wall[h] = wall[twin] = 1;
+        else if (isfinite(d->edge[i].length))
+            d->edge[loops++] = d->edge[i];
     }
+    d->edge_count = loops;
 }
 
-static gvc_result greedy_loops(const gvc_halfedges *mesh, uint32_t root, gvc_cut_graph *graph,
-                               gvc_error *error) {
-    decomposition d = {0};
-    uint8_t *wall = gvc_alloc(3 * mesh->face_count, 1);
-    gvc_result result = GVC_OK;
-    if (!wall || !decomposition_allocate(&d, mesh)) GVC_CHECK(gvc_fail_memory(error));
-    grow_tree(&d, mesh, root);
-    for (size_t v = 0; v < mesh->vertex_count; v++)
-        if (!isfinite(d.distance[v]))
-            GVC_CHECK(gvc_fail(error, GVC_ERROR_MESH,
-                               "vertex %zu cannot be reached: the surface has several components",
-                               v));
-    list_loops(&d, mesh);
-    mark_loops(&d, mesh, wall);
-    gvc_wall_prune(mesh, wall);
-    result = gvc_wall_graph(mesh, wall, graph, error);
-cleanup:
-    decomposition_free(&d);
-    free(wall);
-    return result;
-}
+/* ------------------------------------------------------------------------------- the first loop */
 
-/* ----------------------------------------------------------------------------------- shortening */
-
-/* Marks every corner met on the border to which halfedge `h` of the graph belongs. */
-static void mark_border(gvc_pathfinder *finder, const gvc_halfedges *mesh, uint32_t h,
-                        gvc_corner_role role, uint8_t *seen) {
-    while (!seen[h]) {
-        seen[h] = 1;
-        /* The sector between this halfedge, coming in, and the next one, going out, turned through
-         * clockwise: its corners are those from the outgoing halfedge counter-clockwise. */
-        uint32_t next = gvc_next(h);
-        while (!gvc_pathfinder_on_graph(finder, next)) next = gvc_next(mesh->twin[next]);
-        gvc_pathfinder_mark_sector(finder, next, role);
-        h = next;
-    }
-}
-
-/* Without one of its edges the graph opens the surface to a ring: one of its borders becomes
- * source, the other target. False if there are not two borders. */
-static bool mark_ring(gvc_pathfinder *finder, const gvc_halfedges *mesh, uint8_t *seen) {
-    unsigned borders = 0;
-    for (uint32_t h = 0; h < 3 * mesh->face_count; h++) {
-        if (!gvc_pathfinder_on_graph(finder, h) || seen[h]) continue;
-        mark_border(finder, mesh, h, borders == 0 ? GVC_CORNER_SOURCE : GVC_CORNER_TARGET, seen);
-        borders++;
-    }
-    return borders == 2;
-}
-
-static double graph_length(const gvc_halfedges *mesh, const gvc_cut_graph *graph) {
-    double length = 0;
-    for (size_t e = 0; e < graph->edge_count; e++)
-        length += gvc_cut_edge_length(mesh, &graph->edge[e]);
-    return length;
-}
-
-/* Adds the path to the wall of `rest`; the graph of both replaces `graph`. */
-static gvc_result join(gvc_halfedges *mesh, const gvc_cut_graph *rest, const gvc_surface_path *path,
-                       gvc_cut_graph *graph, gvc_error *error) {
-    uint32_t *chain = NULL;
+typedef struct vertex_loop {
+    uint32_t *vertex; /* count + 1: the first is also the last */
     size_t count;
-    uint8_t *wall = NULL;
-    gvc_cut_graph joined = {0};
-    gvc_result result = gvc_surface_path_insert(mesh, path, &chain, &count, error);
-    if (result != GVC_OK) return result;
-    wall = gvc_alloc(3 * mesh->face_count, 1);
-    if (!wall) GVC_CHECK(gvc_fail_memory(error));
-    gvc_wall_mark(mesh, rest, GVC_NONE, wall);
-    for (size_t i = 0; i + 1 < count; i++) {
-        uint32_t h = gvc_halfedge_between(mesh, chain[i], chain[i + 1]);
-        wall[h] = wall[mesh->twin[h]] = 1;
+    double length;
+} vertex_loop;
+
+/* The loop that halfedge `h` closes, without the way there and back from the root. */
+static gvc_result take_loop(const decomposition *d, uint32_t h, vertex_loop *loop,
+                            gvc_error *error) {
+    const gvc_halfedges *mesh = d->mesh;
+    uint32_t end[2] = {mesh->vertex[h], mesh->vertex[gvc_next(h)]}, at[2] = {end[0], end[1]};
+    size_t steps[2] = {0, 0};
+    while (at[0] != at[1]) {
+        int side = d->distance[at[0]] >= d->distance[at[1]] ? 0 : 1;
+        at[side] = mesh->vertex[d->toward[at[side]]];
+        steps[side]++;
     }
-    GVC_CHECK(gvc_wall_graph(mesh, wall, &joined, error));
-    gvc_cut_graph_free(graph);
-    *graph = joined;
-cleanup:
-    free(chain);
-    free(wall);
+    *loop = (vertex_loop){.count = steps[0] + steps[1] + 1};
+    loop->length = d->distance[end[0]] + d->distance[end[1]] + gvc_halfedge_length(mesh, h) -
+                   2 * d->distance[at[0]];
+    loop->vertex = gvc_alloc(loop->count + 1, sizeof *loop->vertex);
+    if (!loop->vertex) return gvc_fail_memory(error);
+    for (size_t i = 0, v = end[0]; i <= steps[0]; i++) {
+        loop->vertex[steps[0] - i] = (uint32_t)v;
+        if (i < steps[0]) v = mesh->vertex[d->toward[v]];
+    }
+    for (size_t i = 0, v = end[1]; i < steps[1]; i++) {
+        loop->vertex[loop->count - steps[1] + i] = (uint32_t)v;
+        v = mesh->vertex[d->toward[v]];
+    }
+    loop->vertex[loop->count] = loop->vertex[0];
+    return GVC_OK;
+}
+
+enum { STARTS = 4, MOVES = 3 };
+static const double worth_a_move = 0.98;
+
+/* Replaces the loop by the shortest one through a point of it, for as long as that is shorter. */
+static gvc_result move_loop(decomposition *d, uint32_t through, vertex_loop *loop,
+                            gvc_error *error) {
+    for (int i = 0; i < MOVES; i++) {
+        vertex_loop next;
+        find_loops(d, through);
+        if (d->edge_count == 0) return GVC_OK;
+        uint32_t h = d->edge[d->edge_count - 1].h;
+        GVC_TRY(take_loop(d, h, &next, error));
+        bool shorter = next.length < worth_a_move * loop->length;
+        if (next.length < loop->length) {
+            free(loop->vertex);
+            *loop = next;
+            through = d->mesh->vertex[h];
+        } else {
+            free(next.vertex);
+        }
+        if (!shorter) return GVC_OK;
+    }
+    return GVC_OK;
+}
+
+/* The shortest of the loops to be had by moving the shortest ones that `d` found. */
+static gvc_result move_loops(decomposition *d, vertex_loop *best, gvc_error *error) {
+    size_t count = d->edge_count < STARTS ? d->edge_count : STARTS;
+    uint32_t start[STARTS];
+    for (size_t i = 0; i < count; i++) start[i] = d->edge[d->edge_count - 1 - i].h;
+    for (size_t i = 0; i < count; i++) {
+        vertex_loop loop = {.length = INFINITY};
+        gvc_result result = move_loop(d, d->mesh->vertex[start[i]], &loop, error);
+        if (result == GVC_OK && loop.length < best->length) {
+            vertex_loop longer = *best;
+            *best = loop;
+            loop = longer;
+        }
+        free(loop.vertex);
+        if (result != GVC_OK) return result;
+    }
+    return GVC_OK;
+}
+
+/* The free vertex nearest to a vertex. */
+static uint32_t free_vertex(const decomposition *d, uint32_t from) {
+    const gvc_halfedges *mesh = d->mesh;
+    const double *p = mesh->position + 3 * (size_t)from;
+    uint32_t nearest = GVC_NONE;
+    double least = INFINITY;
+    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+        const double *q = mesh->position + 3 * (size_t)v;
+        double away = hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]);
+        if (d->blocked[v] || !(away < least)) continue;
+        least = away;
+        nearest = v;
+    }
+    return nearest;
+}
+
+static gvc_result first_loop(gvc_halfedges *mesh, const gvc_obstacles *obstacles, uint32_t from,
+                             bool near, vertex_loop *loop, gvc_error *error) {
+    decomposition d;
+    *loop = (vertex_loop){0};
+    GVC_TRY(loosen(mesh, obstacles, error));
+    gvc_result result = decomposition_set(&d, mesh, obstacles) ? GVC_OK : gvc_fail_memory(error);
+    uint32_t start = result == GVC_OK ? free_vertex(&d, from) : GVC_NONE;
+    if (start != GVC_NONE) {
+        find_loops(&d, start);
+        for (size_t v = 0; result == GVC_OK && v < mesh->vertex_count; v++)
+            if (!d.blocked[v] && !isfinite(d.distance[v]))
+                result = gvc_fail(error, GVC_ERROR_MESH,
+                                  "vertex %zu cannot be reached: the surface is in pieces", v);
+        if (result == GVC_OK && d.edge_count > 0)
+            result = take_loop(&d, d.edge[d.edge_count - 1].h, loop, error);
+        if (result == GVC_OK && loop->vertex && !near) result = move_loops(&d, loop, error);
+    }
+    if (result != GVC_OK) {
+        free(loop->vertex);
+        *loop = (vertex_loop){0};
+    }
+    decomposition_free(&d);
     return result;
 }
 
-/* Replaces one edge by the shortest path that joins the two borders of the ring which the rest of
- * the graph opens, if that is worth it; the length before is `*length`. */
-static gvc_result shorten_edge(gvc_pathfinder *finder, gvc_halfedges *mesh, uint32_t edge,
-                               gvc_cut_graph *graph, double *length, bool *shortened,
-                               gvc_error *error) {
-    gvc_cut_graph rest = {0};
+/* ------------------------------------------------------------------------------ the second loop */
+
+/* Begins a search that must not touch the obstacles nor a loop along `chain`. */
+static gvc_result begin(gvc_pathfinder *finder, const gvc_halfedges *mesh,
+                        const gvc_obstacles *obstacles, const uint32_t *chain, size_t count,
+                        gvc_error *error) {
+    GVC_TRY(gvc_pathfinder_begin(finder, mesh, obstacles->graph, error));
+    for (size_t i = 0; i < obstacles->vertex_count; i++)
+        if (obstacles->vertex[i] != GVC_NONE)
+            gvc_pathfinder_mark_vertex(finder, obstacles->vertex[i], GVC_CORNER_BLOCKED);
+    return gvc_pathfinder_block(finder, chain, count, error);
+}
+
+/* Finds where the shortest path from the left of a loop to its right begins: a good base. */
+static gvc_result find_base(gvc_pathfinder *finder, const gvc_halfedges *mesh,
+                            const gvc_obstacles *obstacles, vertex_loop *loop, size_t *base,
+                            gvc_error *error) {
     gvc_surface_path path = {0};
-    uint8_t *mark = gvc_alloc(3 * mesh->face_count, 1);
-    gvc_result result = GVC_OK;
-    *shortened = false;
-    if (!mark) GVC_CHECK(gvc_fail_memory(error));
-    gvc_wall_mark(mesh, graph, edge, mark);
-    gvc_wall_prune(mesh, mark);
-    GVC_CHECK(gvc_wall_graph(mesh, mark, &rest, error));
-    GVC_CHECK(gvc_pathfinder_begin(finder, mesh, &rest, error));
-    for (size_t h = 0; h < 3 * mesh->face_count; h++) mark[h] = 0;
-    if (!mark_ring(finder, mesh, mark))
-        GVC_CHECK(
-            gvc_fail(error, GVC_ERROR_INTERNAL, "cut edge %u does not join two borders", edge));
-    GVC_CHECK(gvc_pathfinder_find(finder, NULL, NULL, &path, error));
-    double now = graph_length(mesh, &rest) + path.cost;
-    *shortened = path.count > 0 && now < *length * (1 - 1e-3);
-    if (*shortened) {
-        GVC_CHECK(join(mesh, &rest, &path, graph, error));
-        *length = graph_length(mesh, graph);
+    size_t n = loop->count;
+    gvc_result result = begin(finder, mesh, obstacles, loop->vertex, n + 1, error);
+    if (result != GVC_OK) return result;
+    for (size_t i = 0; i < n; i++) {
+        const uint32_t *v = loop->vertex;
+        uint32_t ahead = gvc_halfedge_between(mesh, v[i], v[(i + 1) % n]);
+        uint32_t back = gvc_halfedge_between(mesh, v[i], v[(i + n - 1) % n]);
+        gvc_pathfinder_mark_sector(finder, ahead, GVC_CORNER_SOURCE);
+        gvc_pathfinder_mark_sector(finder, back, GVC_CORNER_TARGET);
     }
-cleanup:
-    gvc_cut_graph_free(&rest);
+    result = gvc_pathfinder_find(finder, NULL, NULL, &path, error);
+    *base = n;
+    for (size_t i = 0; result == GVC_OK && path.count > 0 && i < n; i++)
+        if (loop->vertex[i] == path.point[0].a) *base = i;
     gvc_surface_path_free(&path);
-    free(mark);
+    if (result == GVC_OK && *base == n)
+        result = gvc_fail(error, GVC_ERROR_INTERNAL,
+                          "a loop of %zu vertices has no way round to its other side", n);
     return result;
 }
 
-enum { SHORTENING_ROUNDS = 4 };
+/* Finds the shortest loop that crosses `wall` at its base, from the left of it to its right, or the
+ * other way. Replaces `*loop`. */
+static gvc_result cross(gvc_pathfinder *finder, gvc_halfedges *mesh, const gvc_obstacles *obstacles,
+                        const uint32_t *wall, size_t wall_count, bool from_left, uint32_t **loop,
+                        size_t *count, gvc_error *error) {
+    gvc_surface_path path = {0};
+    uint32_t *chain = NULL;
+    size_t length = 0;
+    gvc_result result = begin(finder, mesh, obstacles, wall, wall_count, error);
+    if (result != GVC_OK) return result;
+    uint32_t ahead = gvc_halfedge_between(mesh, wall[0], wall[1]);
+    uint32_t back = gvc_halfedge_between(mesh, wall[0], wall[wall_count - 2]);
+    gvc_pathfinder_mark_sector(finder, from_left ? ahead : back, GVC_CORNER_SOURCE);
+    gvc_pathfinder_mark_sector(finder, from_left ? back : ahead, GVC_CORNER_TARGET);
+    result = gvc_pathfinder_find(finder, NULL, NULL, &path, error);
+    if (result == GVC_OK && path.count == 0)
+        result = gvc_fail(error, GVC_ERROR_INTERNAL,
+                          "a loop of %zu vertices cannot be crossed at its base", wall_count);
+    if (result == GVC_OK) result = gvc_surface_path_insert(mesh, &path, &chain, &length, error);
+    if (result == GVC_OK) {
+        free(*loop);
+        *loop = chain;
+        *count = length;
+    }
+    gvc_surface_path_free(&path);
+    return result;
+}
 
-gvc_result gvc_handles_cut(gvc_pathfinder *finder, gvc_halfedges *mesh, uint32_t root,
-                           gvc_cut_graph *graph, gvc_error *error) {
-    *graph = (gvc_cut_graph){0};
+gvc_result gvc_handle_find(gvc_pathfinder *finder, gvc_halfedges *mesh,
+                           const gvc_obstacles *obstacles, uint32_t from, bool near,
+                           gvc_handle *handle, gvc_error *error) {
+    vertex_loop found;
+    size_t base;
+    *handle = (gvc_handle){0};
     for (size_t h = 0; h < 3 * mesh->face_count; h++)
         if (mesh->twin[h] == GVC_NONE)
             return gvc_fail(error, GVC_ERROR_MESH, "the surface is open: face %zu has a free edge",
                             h / 3);
-    gvc_result result = greedy_loops(mesh, root, graph, error);
-    double length = graph_length(mesh, graph);
-    bool any = true;
-    for (int round = 0; result == GVC_OK && any && round < SHORTENING_ROUNDS; round++) {
-        any = false;
-        /* A new path changes the numbers of the edges: each round just tries as many as there are.
-         */
-        for (uint32_t e = 0; result == GVC_OK && e < graph->edge_count; e++) {
-            bool shortened;
-            result = shorten_edge(finder, mesh, e, graph, &length, &shortened, error);
-            any = any || shortened;
-        }
+    GVC_TRY(first_loop(mesh, obstacles, from, near, &found, error));
+    if (!found.vertex) return GVC_OK;
+    gvc_result result = find_base(finder, mesh, obstacles, &found, &base, error);
+    uint32_t *const first = gvc_alloc(found.count + 1, sizeof *first);
+    if (!first && result == GVC_OK) result = gvc_fail_memory(error);
+    for (size_t i = 0; result == GVC_OK && i <= found.count; i++)
+        first[i] = found.vertex[(base + i) % found.count];
+    *handle = (gvc_handle){{first, NULL}, {found.count + 1, 0}};
+    free(found.vertex);
+    uint32_t **loop = handle->loop;
+    size_t *count = handle->count;
+    /* The first loop follows the edges of the mesh: crossing the second one it gets straight. */
+    for (int i = 0; result == GVC_OK && i < 3; i++) {
+        bool second = i != 1;
+        result = cross(finder, mesh, obstacles, loop[!second], count[!second], second,
+                       &loop[second], &count[second], error);
     }
-    if (result != GVC_OK) gvc_cut_graph_free(graph);
+    if (result != GVC_OK) gvc_handle_free(handle);
     return result;
 }

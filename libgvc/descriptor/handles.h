@@ -1,17 +1,41 @@
 /* SPDX-License-Identifier: MIT */
-/** @file handles.h  The graph that cuts the handles of a surface of genus > 0. */
+/** @file handles.h  Short loops that cut the handles of a surface of genus > 0, one handle at a
+ * time. */
 #ifndef GVC_DESCRIPTOR_HANDLES_H
 #define GVC_DESCRIPTOR_HANDLES_H
 
 #include "descriptor/path.h"
 
-/** Short graph, without loose ends, along which a closed surface of genus > 0 opens to one disk.
- *
- *  Begins with the greedy system of loops (Erickson & Whittlesey 2005): the shortest path tree from
- *  `root` and the 2 * genus edges that neither it nor the dual tree of longest loops uses. Then
- * each edge in turn gives way to the shortest path over the surface that cuts it into one disk
- * again. All nodes are junctions. GVC_ERROR_MESH if the mesh has borders or several components. */
-gvc_result gvc_handles_cut(gvc_pathfinder *finder, gvc_halfedges *mesh, uint32_t root,
-                           gvc_cut_graph *graph, gvc_error *error);
+/** Two loops along edges of the mesh that meet in one vertex, their base, and cross there.
+ * Counter-clockwise round the base follow: first loop out, second out, first in, second in. Cutting
+ * along both takes one handle off and leaves one hole in its place, whatever the handle is like, so
+ * all handles are alike as parts of a cut graph. */
+typedef struct gvc_handle {
+    uint32_t *loop[2]; /**< vertices; the first and the last are the base */
+    size_t count[2];
+} gvc_handle;
+
+void gvc_handle_free(gvc_handle *handle);
+
+/** What a handle must keep clear of; everything is borrowed. Cut along the graph, each part of
+ * which is a tree or a handle, the surface must be in one piece. */
+typedef struct gvc_obstacles {
+    const gvc_cut_graph *graph;
+    const uint32_t *vertex; /**< others besides; GVC_NONE for one that does not count any more */
+    size_t vertex_count;
+} gvc_obstacles;
+
+/** Finds a handle of a closed surface by the greedy system of loops (Erickson & Whittlesey 2005):
+ *  the shortest of its loops through (or else round) `from`, and a shortest loop that crosses it.
+ *  Unless `near`, the search goes on from the shortest loops to still shorter ones elsewhere.
+ *  Refines the mesh. `handle` is empty if there is none. GVC_ERROR_MESH if the surface is in pieces
+ *  or open. */
+gvc_result gvc_handle_find(gvc_pathfinder *finder, gvc_halfedges *mesh,
+                           const gvc_obstacles *obstacles, uint32_t from, bool near,
+                           gvc_handle *handle, gvc_error *error);
+
+/** Turns the two loops into the next of the four pairs that are one handle: the second, then the
+ * first reversed. */
+void gvc_handle_turn(gvc_handle *handle);
 
 #endif

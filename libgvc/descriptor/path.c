@@ -138,18 +138,24 @@ gvc_result gvc_pathfinder_begin(gvc_pathfinder *f, const gvc_halfedges *mesh,
     memset(f->role, GVC_CORNER_FREE, 3 * mesh->face_count);
     memset(f->special, 0, f->vertex_count);
     memset(f->wall, 0, f->edge_count);
-    for (size_t e = 0; e < graph->edge_count; e++) {
-        const gvc_cut_edge *edge = &graph->edge[e];
-        for (size_t i = 0; i + 1 < edge->vertex_count; i++) {
-            uint32_t h = gvc_halfedge_between(mesh, edge->vertex[i], edge->vertex[i + 1]);
-            if (h == GVC_NONE)
-                return gvc_fail(error, GVC_ERROR_INTERNAL,
-                                "cut edge %zu jumps from vertex %u to %u, which are not neighbours",
-                                e, edge->vertex[i], edge->vertex[i + 1]);
-            f->wall[f->edge[h]] = 1;
-        }
-    }
+    for (size_t e = 0; e < graph->edge_count; e++)
+        GVC_TRY(gvc_pathfinder_block(f, graph->edge[e].vertex, graph->edge[e].vertex_count, error));
     gvc_pathfinder_mark_graph(f, GVC_CORNER_BLOCKED);
+    return GVC_OK;
+}
+
+gvc_result gvc_pathfinder_block(gvc_pathfinder *f, const uint32_t *chain, size_t count,
+                                gvc_error *error) {
+    for (size_t i = 0; i < count; i++) {
+        gvc_pathfinder_mark_vertex(f, chain[i], GVC_CORNER_BLOCKED);
+        if (i == 0) continue;
+        uint32_t h = gvc_halfedge_between(f->mesh, chain[i - 1], chain[i]);
+        if (h == GVC_NONE)
+            return gvc_fail(error, GVC_ERROR_INTERNAL,
+                            "a cut edge jumps from vertex %u to %u, which are not neighbours",
+                            chain[i - 1], chain[i]);
+        f->wall[f->edge[h]] = 1;
+    }
     return GVC_OK;
 }
 
@@ -178,10 +184,6 @@ void gvc_pathfinder_mark_graph(gvc_pathfinder *f, gvc_corner_role role) {
     for (size_t e = 0; e < f->graph->edge_count; e++)
         for (size_t i = 0; i < f->graph->edge[e].vertex_count; i++)
             gvc_pathfinder_mark_vertex(f, f->graph->edge[e].vertex[i], role);
-}
-
-bool gvc_pathfinder_on_graph(const gvc_pathfinder *f, uint32_t h) {
-    return f->wall[f->edge[h]] != 0;
 }
 
 /* --------------------------------------------------------------------------------------- search */
