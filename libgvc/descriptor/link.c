@@ -187,9 +187,10 @@ static uint32_t tip_at(const gvc_routing *r, uint32_t vertex) {
     return GVC_NONE;
 }
 
-/* Finds or makes the node from which the shortest path leaves the graph; if that is not where the
- * path begins, the path is found anew. */
-static gvc_result attach(gvc_routing *r, gvc_link *link, gvc_surface_path *path, gvc_error *error) {
+/* Finds or makes the node from which the path leaves the graph; if that is not where the path
+ * begins, the path is found anew. */
+static gvc_result attach(gvc_routing *r, gvc_link *link, gvc_path_weight weight,
+                         const void *context, gvc_surface_path *path, gvc_error *error) {
     uint32_t edge;
     size_t place;
     link->parent = GVC_NONE;
@@ -203,7 +204,7 @@ static gvc_result attach(gvc_routing *r, gvc_link *link, gvc_surface_path *path,
     GVC_TRY(begin(r, error));
     gvc_pathfinder_mark_vertex(r->finder, r->graph->node[link->node[0]].vertex, GVC_CORNER_SOURCE);
     mark_target(r, link);
-    return gvc_pathfinder_find(r->finder, NULL, NULL, path, error);
+    return gvc_pathfinder_find(r->finder, weight, context, path, error);
 }
 
 gvc_result gvc_link_nearest(gvc_routing *r, gvc_link *link, gvc_error *error) {
@@ -219,7 +220,7 @@ gvc_result gvc_link_nearest(gvc_routing *r, gvc_link *link, gvc_error *error) {
                            "an extremum cannot be reached from the cut graph: the surface has "
                            "several components"));
     link->tip = tip_at(r, path.point[path.count - 1].a);
-    GVC_CHECK(attach(r, link, &path, error));
+    GVC_CHECK(attach(r, link, NULL, NULL, &path, error));
     if (path.count == 0)
         GVC_CHECK(gvc_fail(error, GVC_ERROR_INTERNAL, "no path from node %u", link->node[0]));
     result = add_path(r, link, &path, error);
@@ -240,7 +241,7 @@ gvc_result gvc_link_attach(gvc_routing *r, size_t nodes, size_t edges, gvc_link 
             gvc_pathfinder_mark_vertex(r->finder, r->graph->edge[e].vertex[i], GVC_CORNER_SOURCE);
     mark_target(r, link);
     result = gvc_pathfinder_find(r->finder, NULL, NULL, &path, error);
-    if (result == GVC_OK && path.count > 0) result = attach(r, link, &path, error);
+    if (result == GVC_OK && path.count > 0) result = attach(r, link, NULL, NULL, &path, error);
     *kept = result == GVC_OK && path.count > 0;
     if (*kept) result = add_path(r, link, &path, error);
     gvc_surface_path_free(&path);
@@ -405,6 +406,28 @@ gvc_result gvc_link_again(gvc_routing *r, gvc_link *link, bool *kept, gvc_error 
 cleanup:
     gvc_surface_path_free(&path);
     gvc_prior_free(&now);
+    return result;
+}
+
+gvc_result gvc_link_resume(gvc_routing *r, gvc_link *link, bool *kept, gvc_error *error) {
+    gvc_surface_path path = {0};
+    evidence e = {.coordinates = &r->coordinates,
+                  .previous = &link->prior,
+                  .previous_weight = r->options->prior_weight,
+                  .variance = link->deviation * link->deviation};
+    gvc_result result = GVC_OK;
+    e.point = gvc_alloc(r->coordinates.dimension, sizeof *e.point);
+    if (!e.point) GVC_CHECK(gvc_fail_memory(error));
+    GVC_CHECK(begin(r, error));
+    gvc_pathfinder_mark_graph(r->finder, GVC_CORNER_SOURCE);
+    mark_target(r, link);
+    GVC_CHECK(gvc_pathfinder_find(r->finder, evidence_weight, &e, &path, error));
+    if (path.count > 0) GVC_CHECK(attach(r, link, evidence_weight, &e, &path, error));
+    *kept = path.count > 0;
+    if (*kept) result = add_path(r, link, &path, error);
+cleanup:
+    free(e.point);
+    gvc_surface_path_free(&path);
     return result;
 }
 

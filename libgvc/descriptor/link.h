@@ -58,6 +58,10 @@ gvc_result gvc_link_attach(gvc_routing *routing, size_t nodes, size_t edges, gvc
  * one far from where it was. */
 gvc_result gvc_link_again(gvc_routing *routing, gvc_link *link, bool *kept, gvc_error *error);
 
+/** Links the tip of a link of the frame before to a graph that may be another one up to there, by
+ * the path nearest to the one before. `*kept` is false if there is none. */
+gvc_result gvc_link_resume(gvc_routing *routing, gvc_link *link, bool *kept, gvc_error *error);
+
 /** Makes a link of an edge of a graph that came about in another way: as if the edges before it had
  * been there and those after it had not. What the link held is freed. */
 gvc_result gvc_link_of_edge(const gvc_routing *routing, uint32_t edge, gvc_link *link,

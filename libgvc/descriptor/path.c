@@ -409,15 +409,18 @@ static void straighten(gvc_pathfinder *f, gvc_surface_path *path) {
     /* Both ends may be joined by an edge of the graph: the path must not fall on it. */
     bool ends_joined = joined_by_wall(f, path->point[0].a, path->point[path->count - 1].a);
     size_t count = 0, total = path->count;
-    for (uint32_t i = 0; i < total; i++)
+    uint32_t last = (uint32_t)total - 1;
+    for (uint32_t i = 0; i < last; i++)
         visit_faces(f, &path->point[i], role_at(path, i), note_last, &i);
+    if (!ends_joined) visit_faces(f, &path->point[last], GVC_CORNER_TARGET, note_last, &last);
     for (uint32_t i = 0;;) {
         uint32_t furthest = i;
         visit_faces(f, &path->point[i], role_at(path, i), take_last, &furthest);
-        if (i == 0 && furthest + 1 == total && ends_joined) furthest = (uint32_t)total - 2;
         path->point[count++] = path->point[i];
-        if (i + 1 >= total || furthest <= i) break;
-        i = furthest;
+        if (i == last) break;
+        if (i == 0 && ends_joined)
+            visit_faces(f, &path->point[last], GVC_CORNER_TARGET, note_last, &last);
+        i = furthest > i ? furthest : i + 1;
     }
     path->count = count;
 }

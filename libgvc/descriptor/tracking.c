@@ -139,7 +139,7 @@ typedef struct workspace {
     gvc_routing routing;
     uint32_t *tip; /* vertices */
     uint32_t root;
-    uint32_t *point;  /* vertices of handles: those of routing.obstacles */
+    uint32_t *point;  /* routing.obstacles: vertices of handles, then the tips */
     gvc_rigid motion; /* of the surface round the root since the frame before */
 } workspace;
 
@@ -160,7 +160,7 @@ static void workspace_set(workspace *w, const gvc_tracker *tracker, gvc_halfedge
 
 static gvc_result workspace_allocate(workspace *w, const gvc_tracked *t, gvc_error *error) {
     w->tip = gvc_alloc(t->tip_count, sizeof *w->tip);
-    w->point = gvc_alloc(GVC_HANDLE_POINTS * t->handle_count, sizeof *w->point);
+    w->point = gvc_alloc(GVC_HANDLE_POINTS * t->handle_count + t->tip_count, sizeof *w->point);
     w->routing.linked = gvc_alloc(t->tip_count, sizeof *w->routing.linked);
     w->routing.tip = w->tip;
     w->routing.tip_count = t->tip_count;
@@ -309,17 +309,17 @@ static gvc_result find_handles(const gvc_tracked *t, const workspace *w, handle_
     return result;
 }
 
-/* Puts the graph together: root, tips, handles. */
+/* Puts the graph together: root, handles, tips. */
 static gvc_result link_everything(gvc_tracked *t, workspace *w, const handle_list *handles,
                                   gvc_error *error) {
     w->routing.obstacles = (gvc_obstacles){.graph = &handles->graph};
     GVC_TRY(add_root(w, error));
-    for (size_t i = 0; i < t->tip_count; i++)
-        GVC_TRY(gvc_link_nearest(&w->routing, &t->link[t->link_count++], error));
     for (size_t i = 0; i < t->genus; i++)
         GVC_TRY(gvc_handle_link_first(&w->routing, &handles->handle[i],
                                       &t->handle[t->handle_count++], error));
     w->routing.obstacles = (gvc_obstacles){0};
+    for (size_t i = 0; i < t->tip_count; i++)
+        GVC_TRY(gvc_link_nearest(&w->routing, &t->link[t->link_count++], error));
     return GVC_OK;
 }
 
@@ -525,7 +525,8 @@ static gvc_result find_handle_points(const gvc_tracked *t, bool all, workspace *
                                            &w->point[i], error);
         taken[fixed + i] = w->point[i];
     }
-    r->obstacles.vertex_count = n;
+    memcpy(w->point + n, w->tip, t->tip_count * sizeof *w->point);
+    r->obstacles.vertex_count = n + t->tip_count;
     free(taken);
     return result;
 }
@@ -570,9 +571,8 @@ static gvc_result add_handles(gvc_tracked *t, workspace *w, gvc_error *error) {
     gvc_routing *r = &w->routing;
     size_t open = 0;
     for (size_t i = 0; i < t->handle_count; i++) open += t->handle[i].open;
-    r->obstacles = (gvc_obstacles){0};
     for (; open < t->genus; open++) {
-        const gvc_obstacles obstacles = {.graph = r->graph};
+        const gvc_obstacles obstacles = {r->graph, w->tip, t->tip_count};
         gvc_handle found;
         GVC_TRY(gvc_handle_find(r->finder, r->mesh, &obstacles, w->root, false, &found, error));
         if (found.count[0] == 0)
@@ -600,11 +600,15 @@ static void forget_handles(gvc_tracked *t) {
 static gvc_result place_everything(gvc_tracked *t, workspace *w, bool resume, bool *kept,
                                    gvc_error *error) {
     GVC_TRY(add_root(w, error));
-    for (size_t i = 0; i < t->link_count && *kept; i++)
-        GVC_TRY(gvc_link_again(&w->routing, &t->link[i], kept, error));
-    if (!*kept) return GVC_OK;
     GVC_TRY(place_handles(t, w, resume, kept, error));
-    return resume ? add_handles(t, w, error) : GVC_OK;
+    if (resume) {
+        w->routing.obstacles = (gvc_obstacles){0};
+        GVC_TRY(add_handles(t, w, error));
+    }
+    for (size_t i = 0; i < t->link_count && *kept; i++)
+        GVC_TRY(resume ? gvc_link_resume(&w->routing, &t->link[i], kept, error)
+                       : gvc_link_again(&w->routing, &t->link[i], kept, error));
+    return GVC_OK;
 }
 
 /* True if the border is what it was, or, after a change, that of a disk. */
