@@ -396,6 +396,109 @@ static gvc_result cross(gvc_pathfinder *finder, gvc_halfedges *mesh, const gvc_o
     return result;
 }
 
+/* Makes two loops of one, given with its base: the shortest loop that crosses it there, and, as it
+ * follows the edges of the mesh, the shortest one that crosses that. */
+static gvc_result straighten(gvc_pathfinder *finder, gvc_halfedges *mesh,
+                             const gvc_obstacles *obstacles, gvc_handle *handle, gvc_error *error) {
+    uint32_t **loop = handle->loop;
+    size_t *count = handle->count;
+    for (int i = 0; i < 3; i++) {
+        bool second = i != 1;
+        GVC_TRY(cross(finder, mesh, obstacles, loop[!second], count[!second], second, &loop[second],
+                      &count[second], error));
+    }
+    return GVC_OK;
+}
+
+/* ------------------------------------------------------------------------------------- the base */
+
+/* The point of the loops nearest to the obstacles' graph and `from`: with the base there, the way
+ * to it does not run along a loop, where it could get from one side of it to the other. */
+static gvc_result nearest_to_graph(gvc_pathfinder *finder, const gvc_halfedges *mesh,
+                                   const gvc_obstacles *obstacles, uint32_t from,
+                                   const gvc_handle *handle, uint32_t *vertex, gvc_error *error) {
+    gvc_surface_path path = {0};
+    GVC_TRY(begin(finder, mesh, obstacles, NULL, 0, error));
+    for (int k = 0; k < 2; k++)
+        GVC_TRY(gvc_pathfinder_block(finder, handle->loop[k], handle->count[k], error));
+    gvc_pathfinder_mark_graph(finder, GVC_CORNER_SOURCE);
+    gvc_pathfinder_mark_vertex(finder, from, GVC_CORNER_SOURCE);
+    for (int k = 0; k < 2; k++)
+        for (size_t i = 0; i < handle->count[k]; i++)
+            gvc_pathfinder_mark_vertex(finder, handle->loop[k][i], GVC_CORNER_TARGET);
+    gvc_result result = gvc_pathfinder_find(finder, NULL, NULL, &path, error);
+    if (path.count > 0) *vertex = path.point[path.count - 1].a;
+    gvc_surface_path_free(&path);
+    return result;
+}
+
+/* Turns the loops so that the base is reached by the shortest way from the graph, or `from`,
+ * between the second loop coming in and the first one going out. */
+static gvc_result turn_to_graph(gvc_pathfinder *finder, const gvc_halfedges *mesh,
+                                const gvc_obstacles *obstacles, uint32_t from, gvc_handle *handle,
+                                gvc_error *error) {
+    gvc_surface_path path = {0};
+    double least = INFINITY;
+    int best = 0;
+    gvc_result result = GVC_OK;
+    for (int turn = 0; turn < 4 && result == GVC_OK; turn++) {
+        const uint32_t *second = handle->loop[1];
+        result = begin(finder, mesh, obstacles, handle->loop[0], handle->count[0], error);
+        if (result == GVC_OK)
+            result = gvc_pathfinder_block(finder, second, handle->count[1], error);
+        if (result != GVC_OK) break;
+        gvc_pathfinder_mark_graph(finder, GVC_CORNER_SOURCE);
+        gvc_pathfinder_mark_vertex(finder, from, GVC_CORNER_SOURCE);
+        uint32_t in = gvc_halfedge_between(mesh, second[0], second[handle->count[1] - 2]);
+        gvc_pathfinder_mark_sector(finder, in, GVC_CORNER_TARGET);
+        result = gvc_pathfinder_find(finder, NULL, NULL, &path, error);
+        if (result == GVC_OK && path.count > 0 && path.cost < least) {
+            least = path.cost;
+            best = turn;
+        }
+        gvc_handle_turn(handle);
+    }
+    gvc_surface_path_free(&path);
+    for (int turn = 0; turn < best; turn++) gvc_handle_turn(handle);
+    return result;
+}
+
+/* The point of the loops nearest to `from` in space. */
+static void nearest_to_point(const gvc_halfedges *mesh, uint32_t from, const gvc_handle *handle,
+                             uint32_t *vertex) {
+    const double *p = mesh->position + 3 * (size_t)from;
+    double least = INFINITY;
+    for (int k = 0; k < 2; k++)
+        for (size_t i = 0; i < handle->count[k]; i++) {
+            const double *q = mesh->position + 3 * (size_t)handle->loop[k][i];
+            double away = hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]);
+            if (!(away < least)) continue;
+            least = away;
+            *vertex = handle->loop[k][i];
+        }
+}
+
+/* Moves the base along the loops to a vertex of one of them. */
+static gvc_result move_base(gvc_pathfinder *finder, gvc_halfedges *mesh,
+                            const gvc_obstacles *obstacles, uint32_t vertex, gvc_handle *handle,
+                            gvc_error *error) {
+    for (int turn = 0; turn < 2; turn++) {
+        size_t n = handle->count[0] - 1, place = 0;
+        while (place < n && handle->loop[0][place] != vertex) place++;
+        if (place == 0) return GVC_OK; /* it is the base */
+        if (place < n) {
+            uint32_t *rotated = gvc_alloc(n + 1, sizeof *rotated);
+            if (!rotated) return gvc_fail_memory(error);
+            for (size_t i = 0; i <= n; i++) rotated[i] = handle->loop[0][(place + i) % n];
+            free(handle->loop[0]);
+            handle->loop[0] = rotated;
+            return straighten(finder, mesh, obstacles, handle, error);
+        }
+        gvc_handle_turn(handle);
+    }
+    return GVC_OK;
+}
+
 gvc_result gvc_handle_find(gvc_pathfinder *finder, gvc_halfedges *mesh,
                            const gvc_obstacles *obstacles, uint32_t from, bool near,
                            gvc_handle *handle, gvc_error *error) {
@@ -415,14 +518,14 @@ gvc_result gvc_handle_find(gvc_pathfinder *finder, gvc_halfedges *mesh,
         first[i] = found.vertex[(base + i) % found.count];
     *handle = (gvc_handle){{first, NULL}, {found.count + 1, 0}};
     free(found.vertex);
-    uint32_t **loop = handle->loop;
-    size_t *count = handle->count;
-    /* The first loop follows the edges of the mesh: crossing the second one it gets straight. */
-    for (int i = 0; result == GVC_OK && i < 3; i++) {
-        bool second = i != 1;
-        result = cross(finder, mesh, obstacles, loop[!second], count[!second], second,
-                       &loop[second], &count[second], error);
-    }
+    if (result == GVC_OK) result = straighten(finder, mesh, obstacles, handle, error);
+    uint32_t vertex = handle->loop[0] ? handle->loop[0][0] : GVC_NONE;
+    if (result == GVC_OK && near) nearest_to_point(mesh, from, handle, &vertex);
+    if (result == GVC_OK && !near)
+        result = nearest_to_graph(finder, mesh, obstacles, from, handle, &vertex, error);
+    if (result == GVC_OK) result = move_base(finder, mesh, obstacles, vertex, handle, error);
+    if (result == GVC_OK && !near)
+        result = turn_to_graph(finder, mesh, obstacles, from, handle, error);
     if (result != GVC_OK) gvc_handle_free(handle);
     return result;
 }

@@ -688,7 +688,9 @@ gvc_result gvc_tracker_resume(gvc_tracker *tracker, const gvc_features *features
                               bool *kept, gvc_error *error) {
     *graph = (gvc_cut_graph){0};
     *kept = false;
-    if (!tracker->known.started || tracker->known.wanted != extremum_count) return GVC_OK;
+    if (!tracker->known.started || tracker->known.wanted != extremum_count ||
+        gvc_mesh_genus(mesh) == tracker->known.genus)
+        return GVC_OK;
     gvc_result result = go_on(tracker, features, mesh, graph, true, kept, error);
     if (*kept) tracker->lost = false;
     return result;

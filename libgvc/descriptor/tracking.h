@@ -37,10 +37,11 @@ gvc_result gvc_tracker_start(gvc_tracker *tracker, const gvc_features *features,
 gvc_result gvc_tracker_next(gvc_tracker *tracker, const gvc_features *features, gvc_halfedges *mesh,
                             gvc_cut_graph *graph, bool *kept, gvc_error *error);
 
-/** First frame of a segment that may differ from the one before in its handles: root, tips and the
+/** First frame of a segment that differs from the one before in its handles: root, tips and the
  * paths to them stay where they were in the frame cut last, and so do handles that are still there;
  * one that is gone is remembered for some frames, in case it returns. `*kept` is false, and the
- * graph empty, if that is not possible, or if another number of extrema was cut to. */
+ * graph empty, if that is not possible, the genus is the same, or another number of extrema was cut
+ * to. */
 gvc_result gvc_tracker_resume(gvc_tracker *tracker, const gvc_features *features,
                               size_t extremum_count, gvc_halfedges *mesh, gvc_cut_graph *graph,
                               bool *kept, gvc_error *error);
