@@ -15,6 +15,8 @@ enum { OUT = 0, BACK = 1, SECOND = 2, WAY = 3 }; /* the links of a handle */
 /* A path round a handle is taken for a wrong one if it is longer than this many times what it was,
  * and so many diagonals. */
 static const double greatest_growth = 2, least_growth = 0.02;
+/* So is the way to it, which may be short and its end move more. */
+static const double greatest_detour = 0.2;
 
 void gvc_handle_link_free(gvc_handle_link *handle) {
     for (int i = 0; i < GVC_HANDLE_POINTS; i++) free(handle->point[i]);
@@ -26,13 +28,13 @@ gvc_result gvc_handle_link_copy(const gvc_handle_link *from, gvc_handle_link *to
                                 gvc_error *error) {
     gvc_result result = GVC_OK;
     size_t n = from->link[OUT].prior.dimensions;
-    *to = (gvc_handle_link){.open = from->open, .since = from->since};
+    *to = (gvc_handle_link){.joined = from->joined, .open = from->open, .since = from->since};
     for (int i = 0; i < GVC_HANDLE_POINTS; i++) {
         to->point[i] = gvc_alloc(n, sizeof *to->point[i]);
         if (!to->point[i]) GVC_CHECK(gvc_fail_memory(error));
         memcpy(to->point[i], from->point[i], n * sizeof *to->point[i]);
     }
-    for (int i = 0; i < GVC_HANDLE_LINKS; i++)
+    for (int i = 0; i < (from->joined ? WAY : GVC_HANDLE_LINKS); i++)
         GVC_CHECK(gvc_link_copy(&from->link[i], &to->link[i], error));
 cleanup:
     if (result != GVC_OK) gvc_handle_link_free(to);
@@ -90,8 +92,8 @@ static gvc_result add_loops(gvc_routing *r, const gvc_handle *found, gvc_handle_
     const uint32_t *first = found->loop[0];
     size_t middle = middle_of(r->mesh, first, found->count[0]);
     gvc_cut_node node[] = {{GVC_NODE_JUNCTION, 0, first[0]}, {GVC_NODE_JUNCTION, 0, first[middle]}};
-    uint32_t base, half, edge = (uint32_t)graph->edge_count;
-    GVC_TRY(gvc_cut_graph_add_node(graph, node[0], &base, error));
+    uint32_t base = 0, half, edge = (uint32_t)graph->edge_count;
+    if (!handle->joined) GVC_TRY(gvc_cut_graph_add_node(graph, node[0], &base, error));
     GVC_TRY(gvc_cut_graph_add_node(graph, node[1], &half, error));
     GVC_TRY(add_chain(graph, base, half, first, middle + 1, error));
     GVC_TRY(add_chain(graph, half, base, first + middle, found->count[0] - middle, error));
@@ -119,7 +121,9 @@ static gvc_result add_way(gvc_routing *r, size_t nodes, size_t edges, gvc_link *
 gvc_result gvc_handle_link_first(gvc_routing *r, const gvc_handle *found, gvc_handle_link *handle,
                                  gvc_error *error) {
     size_t nodes = r->graph->node_count, edges = r->graph->edge_count;
+    handle->joined = found->loop[0][0] == r->graph->node[0].vertex;
     GVC_TRY(add_loops(r, found, handle, error));
+    if (handle->joined) return GVC_OK;
     return add_way(r, nodes, edges, &handle->link[WAY], error);
 }
 
@@ -134,13 +138,14 @@ static bool grew(const gvc_handle_link *handle, const double *length_before) {
 /* Places the two loops; the numbers of nodes and edges follow from where they are in the graph. */
 static gvc_result place_loops(gvc_routing *r, gvc_handle_link *handle, bool *kept,
                               gvc_error *error) {
-    uint32_t base = (uint32_t)r->graph->node_count - 2, edge = (uint32_t)r->graph->edge_count;
+    uint32_t half = (uint32_t)r->graph->node_count - 1, base = handle->joined ? 0 : half - 1;
+    uint32_t edge = (uint32_t)r->graph->edge_count;
     const gvc_edge_end none = {GVC_NONE, 0};
     const struct {
         uint32_t node[2];
         gvc_edge_end after[2];
-    } place[] = {{{base, base + 1}, {none, none}},
-                 {{base + 1, base}, {{edge, 1}, {edge, 0}}},
+    } place[] = {{{base, half}, {none, none}},
+                 {{half, base}, {{edge, 1}, {edge, 0}}},
                  {{base, base}, {{edge, 0}, {edge + 1, 1}}}};
     double before[GVC_HANDLE_LINKS] = {0};
     for (int i = OUT; i <= SECOND && *kept; i++) {
@@ -154,6 +159,14 @@ static gvc_result place_loops(gvc_routing *r, gvc_handle_link *handle, bool *kep
     return GVC_OK;
 }
 
+/* The way is given up if it becomes long: something lies across it. */
+static gvc_result place_way(gvc_routing *r, gvc_link *way, bool *kept, gvc_error *error) {
+    double before = way->length;
+    GVC_TRY(gvc_link_again(r, way, kept, error));
+    *kept = *kept && way->length <= greatest_growth * before + greatest_detour;
+    return GVC_OK;
+}
+
 gvc_result gvc_handle_link_again(gvc_routing *r, const uint32_t *point, bool anew,
                                  gvc_handle_link *handle, bool *kept, gvc_error *error) {
     size_t nodes = r->graph->node_count, edges = r->graph->edge_count;
@@ -161,7 +174,7 @@ gvc_result gvc_handle_link_again(gvc_routing *r, const uint32_t *point, bool ane
     GVC_TRY(gvc_handle_link_copy(handle, &now, error));
     gvc_result result = GVC_OK;
     *kept = true;
-    for (int i = 0; i < GVC_HANDLE_POINTS; i++) {
+    for (int i = handle->joined ? 1 : 0; i < GVC_HANDLE_POINTS; i++) {
         gvc_cut_node node = {GVC_NODE_JUNCTION, 0, point[i]};
         uint32_t index;
         GVC_CHECK(gvc_cut_graph_add_node(r->graph, node, &index, error));
@@ -169,10 +182,8 @@ gvc_result gvc_handle_link_again(gvc_routing *r, const uint32_t *point, bool ane
     GVC_CHECK(place_loops(r, &now, kept, error));
     if (*kept) {
         GVC_CHECK(remember_points(r, &now, error));
-        if (anew)
-            GVC_CHECK(add_way(r, nodes, edges, &now.link[WAY], error));
-        else
-            GVC_CHECK(gvc_link_again(r, &now.link[WAY], kept, error));
+        if (!now.joined && anew) GVC_CHECK(add_way(r, nodes, edges, &now.link[WAY], error));
+        if (!now.joined && !anew) GVC_CHECK(place_way(r, &now.link[WAY], kept, error));
     } else {
         shrink(r->graph, nodes, edges);
     }
@@ -234,8 +245,9 @@ gvc_result gvc_handle_link_elsewhere(gvc_routing *r, gvc_handle_link *handle, bo
     *kept = found.count[0] > 0;
     if (!*kept) return GVC_OK;
     turn_to_fit(r, &found, handle);
+    if (handle->joined) r->graph->node[0].vertex = found.loop[0][0];
     gvc_result result = add_loops(r, &found, handle, error);
-    if (result == GVC_OK) result = gvc_link_again(r, &handle->link[WAY], kept, error);
+    if (result == GVC_OK && !handle->joined) result = place_way(r, &handle->link[WAY], kept, error);
     gvc_handle_free(&found);
     return result;
 }

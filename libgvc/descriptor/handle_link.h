@@ -19,6 +19,7 @@ typedef struct gvc_handle_link {
     double *point[GVC_HANDLE_POINTS];
     /** From base to middle, on to the base, the second loop, and the way to the base. */
     gvc_link link[GVC_HANDLE_LINKS];
+    bool joined;  /**< its base is the graph's first node, so there is no way to it */
     bool open;    /**< false: the frame before does not have it */
     size_t since; /**< frames for which it has not been there */
 } gvc_handle_link;
@@ -26,18 +27,22 @@ typedef struct gvc_handle_link {
 void gvc_handle_link_free(gvc_handle_link *handle);
 gvc_result gvc_handle_link_copy(const gvc_handle_link *from, gvc_handle_link *to, gvc_error *error);
 
-/** Puts a handle found by gvc_handle_find into the graph, and makes the shortest way to it. */
+/** Puts a handle found by gvc_handle_find into the graph, and makes the shortest way to it unless
+ * its base is the vertex of the first node. Only the first handle put into a graph may be like
+ * that. */
 gvc_result gvc_handle_link_first(gvc_routing *routing, const gvc_handle *found,
                                  gvc_handle_link *handle, gvc_error *error);
 
-/** Places the loops of the frame before again, round the vertices `point` (base and middle). If
- * `anew` the way to them is the shortest there is, otherwise that of the frame before. `*kept` is
- * false, and the graph as it was, if the loops would be no handle or much longer. */
+/** Places the loops of the frame before again, round the vertices `point` (base, if it is not
+ * joined, and middle). If `anew` the way to them is the shortest there is, otherwise that of the
+ * frame before. `*kept` is false, and the graph as it was, if the loops would be no handle or much
+ * longer. */
 gvc_result gvc_handle_link_again(gvc_routing *routing, const uint32_t *point, bool anew,
                                  gvc_handle_link *handle, bool *kept, gvc_error *error);
 
 /** Replaces the loops of the frame before by those of the nearest handle there is, with the way of
- * the frame before to them. `*kept` is false if there is none. */
+ * the frame before to them; if they are joined, the first node moves to them. `*kept` is false if
+ * there is none. */
 gvc_result gvc_handle_link_elsewhere(gvc_routing *routing, gvc_handle_link *handle, bool *kept,
                                      gvc_error *error);
 

@@ -411,7 +411,6 @@ cleanup:
 
 gvc_result gvc_link_resume(gvc_routing *r, gvc_link *link, bool *kept, gvc_error *error) {
     gvc_surface_path path = {0};
-    gvc_prior now = {0};
     evidence e = {.coordinates = &r->coordinates,
                   .previous = &link->prior,
                   .previous_weight = r->options->prior_weight,
@@ -425,13 +424,9 @@ gvc_result gvc_link_resume(gvc_routing *r, gvc_link *link, bool *kept, gvc_error
     GVC_CHECK(gvc_pathfinder_find(r->finder, evidence_weight, &e, &path, error));
     if (path.count > 0) GVC_CHECK(attach(r, link, evidence_weight, &e, &path, error));
     *kept = path.count > 0;
-    if (!*kept) goto cleanup;
-    GVC_CHECK(set_prior(r, path.point, path.count, &now, error));
-    *kept = stays(r, &now, &link->prior);
     if (*kept) result = add_path(r, link, &path, error);
 cleanup:
     free(e.point);
-    gvc_prior_free(&now);
     gvc_surface_path_free(&path);
     return result;
 }

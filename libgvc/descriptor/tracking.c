@@ -28,6 +28,9 @@ static const double shape_gate = 0.25;
 static const double patch_radius = 0.18;
 /* and no further than this from one frame to the next, in diagonals. */
 static const double patch_gate = 0.06;
+/* If a handle is this close to the root, in diagonals, the root moves to it: otherwise the handle
+ * would move from one side of it to the other. */
+static const double join_reach = 0.02;
 /* A handle that is gone is looked for again for so many frames. */
 enum { HANDLE_MEMORY = 8 };
 
@@ -56,7 +59,7 @@ typedef struct gvc_tracked {
 struct gvc_tracker {
     gvc_tracker_options options;
     gvc_pathfinder *finder;
-    gvc_tracked known;
+    gvc_tracked known, aside;
     bool lost; /* the frame seen last could not be cut like that */
 };
 
@@ -90,6 +93,7 @@ static void forget(gvc_tracked *t) {
 void gvc_tracker_destroy(gvc_tracker **tracker) {
     if (!tracker || !*tracker) return;
     forget(&(*tracker)->known);
+    forget(&(*tracker)->aside);
     gvc_pathfinder_destroy(&(*tracker)->finder);
     free(*tracker);
     *tracker = NULL;
@@ -284,9 +288,16 @@ static gvc_result list_handle(handle_list *list, gvc_error *error) {
     return GVC_OK;
 }
 
+static void join_root(const gvc_tracked *t, workspace *w, const gvc_handle *handle) {
+    const double *p = w->routing.mesh->position + 3 * (size_t)w->root;
+    const double *q = w->routing.mesh->position + 3 * (size_t)handle->loop[0][0];
+    double away = hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]);
+    if (away <= join_reach * t->diagonal) w->root = handle->loop[0][0];
+}
+
 /* Finds the handles before anything else, so that their loops are short; root and tips are left
  * free. */
-static gvc_result find_handles(const gvc_tracked *t, const workspace *w, handle_list *list,
+static gvc_result find_handles(const gvc_tracked *t, workspace *w, handle_list *list,
                                gvc_error *error) {
     uint32_t *avoid = gvc_alloc(t->tip_count + 1, sizeof *avoid);
     list->handle = gvc_alloc(t->genus, sizeof *list->handle);
@@ -303,6 +314,7 @@ static gvc_result find_handles(const gvc_tracked *t, const workspace *w, handle_
                               "only %zu of %zu handles can be cut: the surface has several "
                               "components",
                               i, t->genus);
+        if (result == GVC_OK && i == 0) join_root(t, w, handle);
         if (result == GVC_OK) result = list_handle(list, error);
     }
     free(avoid);
@@ -474,6 +486,7 @@ static void move_everything(gvc_tracked *t, void (*move)(const void *context, do
     for (size_t i = 0; i < t->handle_count; i++) {
         gvc_handle_link *handle = &t->handle[i];
         for (int k = 0; k < GVC_HANDLE_LINKS; k++) {
+            if (!handle->link[k].junction) continue; /* joined: there is no way */
             gvc_prior_move(&handle->link[k].prior, move, context);
             move(context, handle->link[k].junction);
         }
@@ -519,7 +532,8 @@ static gvc_result find_handle_points(const gvc_tracked *t, bool all, workspace *
     for (size_t i = 0; result == GVC_OK && i < n; i++) {
         const gvc_handle_link *handle = &t->handle[i / GVC_HANDLE_POINTS];
         w->point[i] = GVC_NONE;
-        if (handle->open || all)
+        bool root = handle->joined && i % GVC_HANDLE_POINTS == 0;
+        if (!root && (handle->open || all))
             result = gvc_consistent_vertex(r->mesh, &r->coordinates, 0,
                                            handle->point[i % GVC_HANDLE_POINTS], taken, fixed + i,
                                            &w->point[i], error);
@@ -540,7 +554,7 @@ static gvc_result place_handle(workspace *w, size_t index, bool resume, gvc_hand
     size_t edges = r->graph->edge_count;
     *placed = true;
     for (int k = 0; k < GVC_HANDLE_POINTS; k++) {
-        point[k] = clear[k];
+        point[k] = k == 0 && handle->joined ? w->root : clear[k];
         clear[k] = GVC_NONE;
         *placed = *placed && point[k] != GVC_NONE;
     }
@@ -556,6 +570,7 @@ static gvc_result place_handles(gvc_tracked *t, workspace *w, bool resume, bool 
     for (size_t i = 0; i < t->handle_count; i++) {
         gvc_handle_link *handle = &t->handle[i];
         bool due = resume ? open < t->genus : handle->open, placed = false;
+        if (handle->joined && w->routing.graph->edge_count > 0) due = false;
         if (due) GVC_TRY(place_handle(w, i, resume, handle, &placed, error));
         handle->open = placed;
         handle->since = placed ? 0 : handle->since + 1;
@@ -601,6 +616,7 @@ static gvc_result place_everything(gvc_tracked *t, workspace *w, bool resume, bo
                                    gvc_error *error) {
     GVC_TRY(add_root(w, error));
     GVC_TRY(place_handles(t, w, resume, kept, error));
+    w->root = w->routing.graph->node[0].vertex; /* a handle may have taken it along */
     if (resume) {
         w->routing.obstacles = (gvc_obstacles){0};
         GVC_TRY(add_handles(t, w, error));
@@ -694,4 +710,17 @@ gvc_result gvc_tracker_resume(gvc_tracker *tracker, const gvc_features *features
     gvc_result result = go_on(tracker, features, mesh, graph, true, kept, error);
     if (*kept) tracker->lost = false;
     return result;
+}
+
+void gvc_tracker_set_aside(gvc_tracker *tracker) {
+    forget(&tracker->aside);
+    tracker->aside = tracker->known;
+    tracker->known = (gvc_tracked){0};
+}
+
+void gvc_tracker_take_back(gvc_tracker *tracker) {
+    forget(&tracker->known);
+    tracker->known = tracker->aside;
+    tracker->aside = (gvc_tracked){0};
+    tracker->lost = false;
 }

@@ -46,4 +46,9 @@ gvc_result gvc_tracker_resume(gvc_tracker *tracker, const gvc_features *features
                               size_t extremum_count, gvc_halfedges *mesh, gvc_cut_graph *graph,
                               bool *kept, gvc_error *error);
 
+/** Puts what is known of the frame cut last aside, to try another cut of the same frame, */
+void gvc_tracker_set_aside(gvc_tracker *tracker);
+/** and goes back to it. */
+void gvc_tracker_take_back(gvc_tracker *tracker);
+
 #endif

@@ -4,6 +4,8 @@
 
 /* More tips must lower the sampling error at least to this share. */
 #define WORTH_A_TIP 0.95
+/* So must a cut that has nothing to do with the one before. */
+#define WORTH_A_NEW_CUT 0.8
 
 gvc_result gvc_cut_follow(const gvc_cutter *cutter, const gvc_segment *segment,
                           gvc_frame_work *work, bool *continues, gvc_error *error) {
@@ -84,6 +86,41 @@ static gvc_result cut_again(const gvc_cutter *cutter, gvc_frame_work *work, gvc_
     return result;
 }
 
+/* A segment that begins with the cut of the frame before may do better with one of its own. */
+static gvc_result try_anew(const gvc_cutter *cutter, gvc_frame_work *work, gvc_segment *segment,
+                           gvc_error *error) {
+    gvc_halfedges halfedges = work->halfedges;
+    gvc_cut_graph graph = work->graph;
+    gvc_segment other = *segment;
+    gvc_error trouble;
+    gvc_error_init(&trouble);
+    work->halfedges = (gvc_halfedges){0};
+    work->graph = (gvc_cut_graph){0};
+    other.run = NULL;
+    other.sides = (gvc_side_table){0};
+    other.weld = (gvc_weld){0};
+    gvc_tracker_set_aside(cutter->tracker);
+    gvc_result result = try_cut(cutter, work, segment->extremum_count, &other, &trouble);
+    bool better = result == GVC_OK && other.trial_rms < WORTH_A_NEW_CUT * segment->trial_rms;
+    if (better) {
+        gvc_segment worse = *segment;
+        *segment = other;
+        other = worse;
+        gvc_halfedges_free(&halfedges);
+        gvc_cut_graph_free(&graph);
+    } else {
+        gvc_halfedges_free(&work->halfedges);
+        gvc_cut_graph_free(&work->graph);
+        work->halfedges = halfedges;
+        work->graph = graph;
+        gvc_tracker_take_back(cutter->tracker);
+    }
+    gvc_segment_free(&other);
+    if (result == GVC_OK || result == GVC_ERROR_MESH) return GVC_OK;
+    if (error) *error = trouble;
+    return result;
+}
+
 gvc_result gvc_cut_begin(const gvc_cutter *cutter, uint64_t number, gvc_frame_work *work,
                          gvc_segment *segment, gvc_error *error) {
     GVC_TRY(gvc_segment_begin(cutter->source, cutter->options, cutter->facts, number, work->number,
@@ -93,6 +130,7 @@ gvc_result gvc_cut_begin(const gvc_cutter *cutter, uint64_t number, gvc_frame_wo
                  (work->number > 0 || cutter->source->frame_count == 1);
     bool done = false;
     gvc_result result = cut_again(cutter, work, segment, &done, error);
+    if (result == GVC_OK && done) result = try_anew(cutter, work, segment, error);
     if (result == GVC_OK && !done)
         result = still ? cut_still(cutter, work, segment, error)
                        : cut_somehow(cutter, work, segment, error);

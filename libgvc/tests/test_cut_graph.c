@@ -190,7 +190,8 @@ static void crowded_tips(void **state) {
     gvc_halfedges_free(&ball);
 }
 
-/* The shortest possible graph of a torus: once round the tube, and once along its inside. */
+/* The shortest possible loops of a torus, once round the tube and once along its inside, and the
+ * way to them from the root. */
 static void torus(void **state) {
     (void)state;
     for (size_t tips = 0; tips < 3; tips++) {
@@ -200,7 +201,7 @@ static void torus(void **state) {
         assert_int_equal(graph.node_count + 2, graph.edge_count + 1);
         double length = 0;
         for (size_t e = 0; e < graph.edge_count && tips == 0; e++)
-            length += gvc_cut_edge_length(&ring, &graph.edge[e]);
+            if (graph.edge[e].node[0] != 0) length += gvc_cut_edge_length(&ring, &graph.edge[e]);
         assert_true(length < 1.02 * 2 * PI * (0.4 + 0.6));
         gvc_cut_graph_free(&graph);
         gvc_halfedges_free(&ring);
