@@ -519,13 +519,23 @@ gvc_result gvc_handle_find(gvc_pathfinder *finder, gvc_halfedges *mesh,
     *handle = (gvc_handle){{first, NULL}, {found.count + 1, 0}};
     free(found.vertex);
     if (result == GVC_OK) result = straighten(finder, mesh, obstacles, handle, error);
-    uint32_t vertex = handle->loop[0] ? handle->loop[0][0] : GVC_NONE;
-    if (result == GVC_OK && near) nearest_to_point(mesh, from, handle, &vertex);
-    if (result == GVC_OK && !near)
-        result = nearest_to_graph(finder, mesh, obstacles, from, handle, &vertex, error);
-    if (result == GVC_OK) result = move_base(finder, mesh, obstacles, vertex, handle, error);
-    if (result == GVC_OK && !near)
-        result = turn_to_graph(finder, mesh, obstacles, from, handle, error);
     if (result != GVC_OK) gvc_handle_free(handle);
     return result;
+}
+
+gvc_result gvc_handle_face(gvc_pathfinder *finder, gvc_halfedges *mesh,
+                           const gvc_obstacles *obstacles, uint32_t from, gvc_handle *handle,
+                           gvc_error *error) {
+    uint32_t vertex = handle->loop[0][0];
+    GVC_TRY(nearest_to_graph(finder, mesh, obstacles, from, handle, &vertex, error));
+    GVC_TRY(move_base(finder, mesh, obstacles, vertex, handle, error));
+    return turn_to_graph(finder, mesh, obstacles, from, handle, error);
+}
+
+gvc_result gvc_handle_rebase(gvc_pathfinder *finder, gvc_halfedges *mesh,
+                             const gvc_obstacles *obstacles, uint32_t near, gvc_handle *handle,
+                             gvc_error *error) {
+    uint32_t vertex = handle->loop[0][0];
+    nearest_to_point(mesh, near, handle, &vertex);
+    return move_base(finder, mesh, obstacles, vertex, handle, error);
 }

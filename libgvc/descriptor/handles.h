@@ -28,12 +28,22 @@ typedef struct gvc_obstacles {
 /** Finds a handle of a closed surface by the greedy system of loops (Erickson & Whittlesey 2005):
  *  the shortest of its loops through (or else round) `from`, and a shortest loop that crosses it.
  *  Unless `near`, the search goes on from the shortest loops to still shorter ones elsewhere.
- *  The base is the point of the loops nearest to `from` or, unless `near`, to the graph. Refines
- * the mesh. `handle` is empty if there is none. GVC_ERROR_MESH if the surface is in pieces or open.
- */
+ *  Refines the mesh. `handle` is empty if there is none. GVC_ERROR_MESH if the surface is in pieces
+ *  or open. */
 gvc_result gvc_handle_find(gvc_pathfinder *finder, gvc_halfedges *mesh,
                            const gvc_obstacles *obstacles, uint32_t from, bool near,
                            gvc_handle *handle, gvc_error *error);
+
+/** Moves the base to where the loops are nearest to the obstacles' graph and the vertex `from`, and
+ * turns them so that the way from there reaches it after the second loop coming in. */
+gvc_result gvc_handle_face(gvc_pathfinder *finder, gvc_halfedges *mesh,
+                           const gvc_obstacles *obstacles, uint32_t from, gvc_handle *handle,
+                           gvc_error *error);
+
+/** Moves the base to the point of the loops that is nearest to a vertex in space. */
+gvc_result gvc_handle_rebase(gvc_pathfinder *finder, gvc_halfedges *mesh,
+                             const gvc_obstacles *obstacles, uint32_t near, gvc_handle *handle,
+                             gvc_error *error);
 
 /** Turns the two loops into the next of the four pairs that are one handle: the second, then the
  * first reversed. */

@@ -38,6 +38,7 @@ enum { HANDLE_MEMORY = 8 };
 typedef struct gvc_tracked {
     bool started;
     size_t genus, wanted; /* extrema asked for */
+    unsigned search;      /* gvc_handle_search */
     /* Of the first frame: each frame is compared with the one before it, and a normalisation of its
      * own would only add the noise of two greatest distances. */
     double diagonal, scale;
@@ -288,6 +289,13 @@ static gvc_result list_handle(handle_list *list, gvc_error *error) {
     return GVC_OK;
 }
 
+/* The vertex from which handles are looked for. */
+static uint32_t search_start(const gvc_tracked *t, const workspace *w) {
+    if (t->search < GVC_HANDLES_NEAR_TIP || t->tip_count == 0) return w->root;
+    size_t tip = t->search - GVC_HANDLES_NEAR_TIP;
+    return w->tip[tip < t->tip_count ? tip : t->tip_count - 1];
+}
+
 static void join_root(const gvc_tracked *t, workspace *w, const gvc_handle *handle) {
     const double *p = w->routing.mesh->position + 3 * (size_t)w->root;
     const double *q = w->routing.mesh->position + 3 * (size_t)handle->loop[0][0];
@@ -307,15 +315,21 @@ static gvc_result find_handles(const gvc_tracked *t, workspace *w, handle_list *
     const gvc_obstacles obstacles = {&list->graph, avoid, t->tip_count + 1};
     for (size_t i = 0; result == GVC_OK && i < t->genus; i++) {
         gvc_handle *handle = &list->handle[i];
-        result = gvc_handle_find(w->routing.finder, w->routing.mesh, &obstacles, w->root, false,
-                                 handle, error);
+        result = gvc_handle_find(w->routing.finder, w->routing.mesh, &obstacles, search_start(t, w),
+                                 t->search != GVC_HANDLES_SHORT, handle, error);
         if (result == GVC_OK && handle->count[0] == 0)
             result = gvc_fail(error, GVC_ERROR_MESH,
                               "only %zu of %zu handles can be cut: the surface has several "
                               "components",
                               i, t->genus);
+        if (result == GVC_OK)
+            result = gvc_handle_face(w->routing.finder, w->routing.mesh, &obstacles, w->root,
+                                     handle, error);
         if (result == GVC_OK && i == 0) join_root(t, w, handle);
-        if (result == GVC_OK) result = list_handle(list, error);
+        if (result != GVC_OK)
+            gvc_handle_free(handle);
+        else
+            result = list_handle(list, error);
     }
     free(avoid);
     return result;
@@ -367,8 +381,8 @@ static gvc_result start(gvc_tracked *t, const gvc_features *features, workspace 
 }
 
 gvc_result gvc_tracker_start(gvc_tracker *tracker, const gvc_features *features,
-                             size_t extremum_count, gvc_halfedges *mesh, gvc_cut_graph *graph,
-                             gvc_error *error) {
+                             size_t extremum_count, unsigned search, gvc_halfedges *mesh,
+                             gvc_cut_graph *graph, gvc_error *error) {
     workspace w;
     handle_list handles = {0};
     gvc_tracked *t = &tracker->known;
@@ -377,6 +391,7 @@ gvc_result gvc_tracker_start(gvc_tracker *tracker, const gvc_features *features,
     workspace_set(&w, tracker, mesh, graph);
     t->genus = gvc_mesh_genus(mesh);
     t->wanted = extremum_count;
+    t->search = search;
     t->diagonal = features->diagonal > 0 ? features->diagonal : 1;
     t->scale = features->geodesic_scale > 0 ? features->geodesic_scale : 1;
     gvc_result result = start(t, features, &w, &handles, error);
@@ -593,7 +608,9 @@ static gvc_result add_handles(gvc_tracked *t, workspace *w, gvc_error *error) {
         if (found.count[0] == 0)
             return gvc_fail(error, GVC_ERROR_MESH, "only %zu of %zu handles can be cut", open,
                             t->genus);
-        gvc_result result = gvc_handle_link_first(r, &found, &t->handle[t->handle_count++], error);
+        gvc_result result = gvc_handle_face(r->finder, r->mesh, &obstacles, w->root, &found, error);
+        if (result == GVC_OK)
+            result = gvc_handle_link_first(r, &found, &t->handle[t->handle_count++], error);
         gvc_handle_free(&found);
         if (result != GVC_OK) return result;
     }

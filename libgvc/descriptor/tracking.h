@@ -21,14 +21,22 @@ gvc_result gvc_tracker_create(const gvc_tracker_options *options, gvc_tracker **
                               gvc_error *error);
 void gvc_tracker_destroy(gvc_tracker **tracker);
 
+/** Where the loops that cut handles are looked for in a first frame. Short ones are best for most
+ * surfaces, but may leave parts of others behind narrow necks, where a chart folds. */
+typedef enum gvc_handle_search {
+    GVC_HANDLES_SHORT = 0,     /**< all over the surface, the shortest ones */
+    GVC_HANDLES_NEAR_ROOT = 1, /**< the shortest through or round the root */
+    GVC_HANDLES_NEAR_TIP = 2   /**< + i: the shortest through or round tip i, or the last one */
+} gvc_handle_search;
+
 /** First frame of a segment. Cuts `mesh` (refining it by splits) from features->root to the
- *  `extremum_count` first extrema of `features`, shortest first (Eq. 5), without crossing short
- * loops round its handles, and on to these, in order of the length of their loops. Without handles
+ *  `extremum_count` first extrema of `features`, shortest first (Eq. 5), and to loops
+ * that cut its handles, which are found first (`search`: a gvc_handle_search). Without handles
  * there are at least two tips: the point farthest from the only one (or from the root) is added,
  * with the next free number. Forgets any earlier frame. */
 gvc_result gvc_tracker_start(gvc_tracker *tracker, const gvc_features *features,
-                             size_t extremum_count, gvc_halfedges *mesh, gvc_cut_graph *graph,
-                             gvc_error *error);
+                             size_t extremum_count, unsigned search, gvc_halfedges *mesh,
+                             gvc_cut_graph *graph, gvc_error *error);
 
 /** Any later frame: finds the same graph. `*kept` is false, and the graph is empty, if this frame
  * does not allow that (an extremum cannot be matched, another genus, paths that cannot be laid in

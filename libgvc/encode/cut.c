@@ -2,6 +2,10 @@
 /** @file cut.c  Which cut a frame gets (docs/adr/0011, 0013). */
 #include "encode/cut.h"
 
+#include <math.h>
+
+#define LAYOUT_SAMPLES 1000
+
 /* More tips must lower the sampling error at least to this share. */
 #define WORTH_A_TIP 0.95
 /* So must a cut that has nothing to do with the one before. */
@@ -15,26 +19,54 @@ gvc_result gvc_cut_follow(const gvc_cutter *cutter, const gvc_segment *segment,
                             continues, error);
 }
 
-/* Cuts the first frame of a segment to `extrema` tips and lays its border out. */
-static gvc_result try_cut(const gvc_cutter *cutter, gvc_frame_work *work, size_t extrema,
+/* Lays the border of the first frame out; the layout is tried at a size of its own, and must do at
+ * that of the images too. */
+static gvc_result lay_out(const gvc_cutter *cutter, gvc_frame_work *work, gvc_segment *segment,
+                          gvc_error *error) {
+    double rms;
+    GVC_TRY(gvc_segment_layout(segment, work, cutter->size, cutter->options->threads, error));
+    if (cutter->size == 0) return GVC_OK;
+    GVC_TRY(gvc_segment_sampling_rms(segment, work, cutter->size, LAYOUT_SAMPLES, &rms, error));
+    if (isfinite(rms)) return GVC_OK;
+    return gvc_fail(error, GVC_ERROR_MESH,
+                    "the surface cut open folds over itself at %u samples a side", cutter->size);
+}
+
+/* How a first frame is cut. */
+typedef struct cut_choice {
+    size_t extrema;
+    unsigned search; /* gvc_handle_search */
+} cut_choice;
+
+static gvc_result try_cut(const gvc_cutter *cutter, gvc_frame_work *work, cut_choice choice,
                           gvc_segment *segment, gvc_error *error) {
     GVC_TRY(gvc_frame_uncut(work, error));
-    GVC_TRY(gvc_tracker_start(cutter->tracker, &work->features, extrema, &work->halfedges,
-                              &work->graph, error));
-    return gvc_segment_layout(segment, work, cutter->size, cutter->options->threads, error);
+    GVC_TRY(gvc_tracker_start(cutter->tracker, &work->features, choice.extrema, choice.search,
+                              &work->halfedges, &work->graph, error));
+    return lay_out(cutter, work, segment, error);
 }
 
 /* A chart that folds over itself, or a cut too long for the image, may come out well with other
- * tips. */
+ * tips, or with other loops round handles. */
 static gvc_result cut_somehow(const gvc_cutter *cutter, gvc_frame_work *work, gvc_segment *segment,
                               gvc_error *error) {
-    static const int more[] = {0, 1, 2, -1};
+    static const struct {
+        int more;
+        unsigned search;
+    } attempt[] = {
+        {0, GVC_HANDLES_SHORT},        {0, GVC_HANDLES_NEAR_TIP},     {0, GVC_HANDLES_NEAR_TIP + 2},
+        {1, GVC_HANDLES_SHORT},        {2, GVC_HANDLES_SHORT},        {-1, GVC_HANDLES_SHORT},
+        {1, GVC_HANDLES_NEAR_TIP},     {2, GVC_HANDLES_NEAR_TIP},     {0, GVC_HANDLES_NEAR_TIP + 1},
+        {0, GVC_HANDLES_NEAR_TIP + 3}, {2, GVC_HANDLES_NEAR_TIP + 1}, {0, GVC_HANDLES_NEAR_ROOT}};
+    bool handles = cutter->facts[work->number].genus > 0;
     gvc_result result = GVC_ERROR_MESH;
-    for (size_t i = 0; i < sizeof more / sizeof *more && result == GVC_ERROR_MESH; i++) {
-        if (more[i] < 0 && segment->extremum_count == 0) break;
-        size_t extrema = segment->extremum_count + (size_t)more[i];
-        if (i > 0 && extrema > work->features.extremum_count) continue;
-        result = try_cut(cutter, work, extrema, segment, error);
+    for (size_t i = 0; i < sizeof attempt / sizeof *attempt && result == GVC_ERROR_MESH; i++) {
+        int more = attempt[i].more;
+        if (more < 0 && segment->extremum_count == 0) continue;
+        if (!handles && attempt[i].search != GVC_HANDLES_SHORT) continue;
+        cut_choice choice = {segment->extremum_count + (size_t)more, attempt[i].search};
+        if (i > 0 && choice.extrema > work->features.extremum_count) continue;
+        result = try_cut(cutter, work, choice, segment, error);
     }
     return result;
 }
@@ -57,15 +89,17 @@ static gvc_result cut_still(const gvc_cutter *cutter, gvc_frame_work *work, gvc_
         }
         if (extrema == tried) continue;
         tried = extrema;
-        gvc_result result = try_cut(cutter, work, extrema, segment, error);
+        gvc_result result =
+            try_cut(cutter, work, (cut_choice){extrema, GVC_HANDLES_SHORT}, segment, error);
         if (result != GVC_OK && result != GVC_ERROR_MESH) return result;
         if (result != GVC_OK || segment->trial_rms > WORTH_A_TIP * least) continue;
         least = segment->trial_rms;
         best = extrema;
     }
     if (tried == best) return GVC_OK;
-    return best == voted ? cut_somehow(cutter, work, segment, error)
-                         : try_cut(cutter, work, best, segment, error);
+    return best == voted
+               ? cut_somehow(cutter, work, segment, error)
+               : try_cut(cutter, work, (cut_choice){best, GVC_HANDLES_SHORT}, segment, error);
 }
 
 /* Cuts the first frame of a segment as the frame before, but for its handles. `*done` is false if
@@ -78,8 +112,7 @@ static gvc_result cut_again(const gvc_cutter *cutter, gvc_frame_work *work, gvc_
     GVC_TRY(gvc_tracker_resume(cutter->tracker, &work->features, segment->extremum_count,
                                &work->halfedges, &work->graph, done, error));
     if (!*done) return GVC_OK;
-    gvc_result result =
-        gvc_segment_layout(segment, work, cutter->size, cutter->options->threads, &trouble);
+    gvc_result result = lay_out(cutter, work, segment, &trouble);
     *done = result == GVC_OK;
     if (result == GVC_OK || result == GVC_ERROR_MESH) return GVC_OK;
     if (error) *error = trouble;
@@ -100,7 +133,8 @@ static gvc_result try_anew(const gvc_cutter *cutter, gvc_frame_work *work, gvc_s
     other.sides = (gvc_side_table){0};
     other.weld = (gvc_weld){0};
     gvc_tracker_set_aside(cutter->tracker);
-    gvc_result result = try_cut(cutter, work, segment->extremum_count, &other, &trouble);
+    gvc_result result = try_cut(
+        cutter, work, (cut_choice){segment->extremum_count, GVC_HANDLES_SHORT}, &other, &trouble);
     bool better = result == GVC_OK && other.trial_rms < WORTH_A_NEW_CUT * segment->trial_rms;
     if (better) {
         gvc_segment worse = *segment;

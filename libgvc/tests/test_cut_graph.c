@@ -139,7 +139,8 @@ static gvc_cut_graph started(gvc_halfedges *mesh, size_t tips) {
     gvc_tracker *tracker;
     assert_int_equal(gvc_features_find(mesh, &few_samples, &features, NULL), GVC_OK);
     assert_int_equal(gvc_tracker_create(&usual, &tracker, NULL), GVC_OK);
-    assert_int_equal(gvc_tracker_start(tracker, &features, tips, mesh, &graph, NULL), GVC_OK);
+    assert_int_equal(
+        gvc_tracker_start(tracker, &features, tips, GVC_HANDLES_SHORT, mesh, &graph, NULL), GVC_OK);
     gvc_tracker_destroy(&tracker);
     gvc_features_free(&features);
     return graph;
@@ -182,7 +183,8 @@ static void crowded_tips(void **state) {
     gvc_cut_graph graph;
     gvc_tracker *tracker;
     assert_int_equal(gvc_tracker_create(&usual, &tracker, NULL), GVC_OK);
-    assert_int_equal(gvc_tracker_start(tracker, &features, 5, &ball, &graph, NULL), GVC_OK);
+    assert_int_equal(
+        gvc_tracker_start(tracker, &features, 5, GVC_HANDLES_SHORT, &ball, &graph, NULL), GVC_OK);
     check_opens_to_disk(&ball, &graph);
     check_structure(&graph, 0, 5);
     gvc_cut_graph_free(&graph);
@@ -238,8 +240,9 @@ static void two_components(void **state) {
     gvc_error error;
     gvc_error_init(&error);
     assert_int_equal(gvc_tracker_create(&usual, &tracker, NULL), GVC_OK);
-    assert_int_equal(gvc_tracker_start(tracker, &features, 2, &two, &graph, &error),
-                     GVC_ERROR_MESH);
+    assert_int_equal(
+        gvc_tracker_start(tracker, &features, 2, GVC_HANDLES_SHORT, &two, &graph, &error),
+        GVC_ERROR_MESH);
     assert_int_equal(graph.edge_count, 0);
     gvc_tracker_destroy(&tracker);
     gvc_halfedges_free(&ball);

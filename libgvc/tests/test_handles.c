@@ -125,8 +125,9 @@ static gvc_tracker *tracker_at(figure *made) {
     gvc_tracker *tracker;
     gvc_tracker_options_init(&options);
     assert_int_equal(gvc_tracker_create(&options, &tracker, NULL), GVC_OK);
-    assert_int_equal(
-        gvc_tracker_start(tracker, &made->features, TIPS, &made->mesh, &made->graph, NULL), GVC_OK);
+    assert_int_equal(gvc_tracker_start(tracker, &made->features, TIPS, GVC_HANDLES_SHORT,
+                                       &made->mesh, &made->graph, NULL),
+                     GVC_OK);
     return tracker;
 }
 
