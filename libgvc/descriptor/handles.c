@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/** @file handles.c  Greedy systems of loops, and the two loops of one handle. */
+/** @file handles.c  The two loops of one handle. */
 #include "descriptor/handles.h"
 
 #include "base/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 void gvc_handle_free(gvc_handle *handle) {
     free(handle->loop[0]);
@@ -25,189 +24,6 @@ void gvc_handle_turn(gvc_handle *handle) {
     *handle = (gvc_handle){{handle->loop[1], first}, {handle->count[1], count}};
 }
 
-/* ---------------------------------------------------------------------------------- tree-cotree */
-
-typedef struct queue_entry {
-    double distance;
-    uint32_t vertex;
-} queue_entry;
-
-typedef struct loop_edge {
-    double length; /* of the loop that the edge closes with the tree */
-    uint32_t h;
-} loop_edge;
-
-typedef struct decomposition {
-    const gvc_halfedges *mesh;
-    uint8_t *wall;      /* per halfedge: belongs to the obstacles */
-    uint8_t *blocked;   /* per vertex: so does this */
-    double *distance;   /* per vertex, along the edges of the mesh */
-    uint32_t *toward;   /* per vertex: halfedge that comes from its parent in the tree */
-    queue_entry *queue; /* binary heap */
-    size_t queue_count;
-    loop_edge *edge; /* those not in the tree, longest loop first; then those that close loops */
-    size_t edge_count;
-    uint32_t *set; /* per face: union-find of the dual tree */
-} decomposition;
-
-static void decomposition_free(decomposition *d) {
-    free(d->wall);
-    free(d->blocked);
-    free(d->distance);
-    free(d->toward);
-    free(d->queue);
-    free(d->edge);
-    free(d->set);
-}
-
-static void mark_obstacles(const gvc_halfedges *mesh, const gvc_obstacles *obstacles, uint8_t *wall,
-                           uint8_t *blocked) {
-    const gvc_cut_graph *graph = obstacles->graph;
-    for (size_t n = 0; n < graph->node_count; n++) blocked[graph->node[n].vertex] = 1;
-    for (size_t i = 0; i < obstacles->vertex_count; i++)
-        if (obstacles->vertex[i] != GVC_NONE) blocked[obstacles->vertex[i]] = 1;
-    for (size_t e = 0; e < graph->edge_count; e++)
-        for (size_t i = 0; i + 1 < graph->edge[e].vertex_count; i++) {
-            const uint32_t *v = graph->edge[e].vertex + i;
-            uint32_t h = gvc_halfedge_between(mesh, v[0], v[1]);
-            blocked[v[0]] = blocked[v[1]] = 1;
-            wall[h] = wall[mesh->twin[h]] = 1;
-        }
-}
-
-/* Splits the edges between two blocked vertices that are no obstacles themselves. Then loops along
- * the edges between free vertices go everywhere where loops on the surface can go. */
-static gvc_result loosen(gvc_halfedges *mesh, const gvc_obstacles *obstacles, gvc_error *error) {
-    size_t halfedges = 3 * mesh->face_count, count = 0;
-    uint8_t *wall = gvc_alloc(halfedges, 1), *blocked = gvc_alloc(mesh->vertex_count, 1);
-    uint32_t *end = gvc_alloc(halfedges, sizeof *end); /* two per edge */
-    gvc_result result = wall && blocked && end ? GVC_OK : gvc_fail_memory(error);
-    if (result == GVC_OK) mark_obstacles(mesh, obstacles, wall, blocked);
-    for (uint32_t h = 0; result == GVC_OK && h < halfedges; h++) {
-        uint32_t a = mesh->vertex[h], b = mesh->vertex[gvc_next(h)];
-        if (mesh->twin[h] < h || !blocked[a] || !blocked[b] || wall[h]) continue;
-        end[count++] = a;
-        end[count++] = b;
-    }
-    for (size_t i = 0; result == GVC_OK && i < count; i += 2) {
-        uint32_t middle, h = gvc_halfedge_between(mesh, end[i], end[i + 1]);
-        result = gvc_halfedges_split(mesh, h, 0.5, &middle, error);
-    }
-    free(wall);
-    free(blocked);
-    free(end);
-    return result;
-}
-
-static bool decomposition_set(decomposition *d, const gvc_halfedges *mesh,
-                              const gvc_obstacles *obstacles) {
-    size_t vertices = mesh->vertex_count, halfedges = 3 * mesh->face_count;
-    *d = (decomposition){.mesh = mesh};
-    d->wall = gvc_alloc(halfedges, 1);
-    d->blocked = gvc_alloc(vertices, 1);
-    d->distance = gvc_alloc(vertices, sizeof *d->distance);
-    d->toward = gvc_alloc(vertices, sizeof *d->toward);
-    d->queue = gvc_alloc(halfedges + 1, sizeof *d->queue);
-    d->edge = gvc_alloc(halfedges, sizeof *d->edge);
-    d->set = gvc_alloc(mesh->face_count, sizeof *d->set);
-    if (!d->wall || !d->blocked || !d->distance || !d->toward || !d->queue || !d->edge || !d->set)
-        return false;
-    mark_obstacles(mesh, obstacles, d->wall, d->blocked);
-    return true;
-}
-
-static void push(decomposition *d, double distance, uint32_t vertex) {
-    size_t place = d->queue_count++;
-    for (; place > 0 && d->queue[(place - 1) / 2].distance > distance; place = (place - 1) / 2)
-        d->queue[place] = d->queue[(place - 1) / 2];
-    d->queue[place] = (queue_entry){distance, vertex};
-}
-
-static queue_entry pop(decomposition *d) {
-    queue_entry top = d->queue[0], last = d->queue[--d->queue_count];
-    size_t place = 0;
-    for (;;) {
-        size_t child = 2 * place + 1;
-        if (child >= d->queue_count) break;
-        if (child + 1 < d->queue_count && d->queue[child + 1].distance < d->queue[child].distance)
-            child++;
-        if (d->queue[child].distance >= last.distance) break;
-        d->queue[place] = d->queue[child];
-        place = child;
-    }
-    d->queue[place] = last;
-    return top;
-}
-
-/* Shortest path tree along edges between free vertices. Each halfedge is pushed at most once, so
- * the queue is large enough. */
-static void grow_tree(decomposition *d, uint32_t root) {
-    const gvc_halfedges *mesh = d->mesh;
-    for (size_t v = 0; v < mesh->vertex_count; v++) {
-        d->distance[v] = INFINITY;
-        d->toward[v] = GVC_NONE;
-    }
-    d->distance[root] = 0;
-    d->queue_count = 0;
-    push(d, 0, root);
-    while (d->queue_count > 0) {
-        queue_entry now = pop(d);
-        if (now.distance > d->distance[now.vertex]) continue;
-        uint32_t h = mesh->outgoing[now.vertex];
-        do {
-            uint32_t to = mesh->vertex[gvc_next(h)];
-            double through = now.distance + gvc_halfedge_length(mesh, h);
-            if (!d->blocked[to] && through < d->distance[to]) {
-                d->distance[to] = through;
-                d->toward[to] = h;
-                push(d, through, to);
-            }
-            h = gvc_turn(mesh, h);
-        } while (h != mesh->outgoing[now.vertex]);
-    }
-}
-
-static int longer_first(const void *left, const void *right) {
-    const loop_edge *a = left, *b = right;
-    if (a->length != b->length) return a->length > b->length ? -1 : 1;
-    return a->h < b->h ? -1 : a->h > b->h;
-}
-
-static void list_edges(decomposition *d) {
-    const gvc_halfedges *mesh = d->mesh;
-    d->edge_count = 0;
-    for (uint32_t h = 0; h < 3 * mesh->face_count; h++) {
-        uint32_t a = mesh->vertex[h], b = mesh->vertex[gvc_next(h)];
-        if (mesh->twin[h] < h || d->toward[b] == h || d->toward[a] == mesh->twin[h]) continue;
-        if (d->wall[h]) continue;
-        double length = d->distance[a] + d->distance[b] + gvc_halfedge_length(mesh, h);
-        d->edge[d->edge_count++] = (loop_edge){length, h};
-    }
-    qsort(d->edge, d->edge_count, sizeof *d->edge, longer_first);
-}
-
-static uint32_t set_of(decomposition *d, uint32_t face) {
-    while (d->set[face] != face) face = d->set[face] = d->set[d->set[face]];
-    return face;
-}
-
-/* Kruskal's algorithm for the dual tree; the edges it leaves close the loops, those of handles and
- * one round each part of the obstacles, which is of infinite length. */
-static void find_loops(decomposition *d, uint32_t root) {
-    size_t loops = 0;
-    grow_tree(d, root);
-    list_edges(d);
-    for (uint32_t f = 0; f < d->mesh->face_count; f++) d->set[f] = f;
-    for (size_t i = 0; i < d->edge_count; i++) {
-        uint32_t a = set_of(d, d->edge[i].h / 3), b = set_of(d, d->mesh->twin[d->edge[i].h] / 3);
-        if (a != b)
-            d->set[a < b ? b : a] = a < b ? a : b;
-        else if (isfinite(d->edge[i].length))
-            d->edge[loops++] = d->edge[i];
-    }
-    d->edge_count = loops;
-}
-
 /* ------------------------------------------------------------------------------- the first loop */
 
 typedef struct vertex_loop {
@@ -217,8 +33,7 @@ typedef struct vertex_loop {
 } vertex_loop;
 
 /* The loop that halfedge `h` closes, without the way there and back from the root. */
-static gvc_result take_loop(const decomposition *d, uint32_t h, vertex_loop *loop,
-                            gvc_error *error) {
+static gvc_result take_loop(const gvc_loops *d, uint32_t h, vertex_loop *loop, gvc_error *error) {
     const gvc_halfedges *mesh = d->mesh;
     uint32_t end[2] = {mesh->vertex[h], mesh->vertex[gvc_next(h)]}, at[2] = {end[0], end[1]};
     size_t steps[2] = {0, 0};
@@ -248,11 +63,10 @@ enum { STARTS = 4, MOVES = 3 };
 static const double worth_a_move = 0.98;
 
 /* Replaces the loop by the shortest one through a point of it, for as long as that is shorter. */
-static gvc_result move_loop(decomposition *d, uint32_t through, vertex_loop *loop,
-                            gvc_error *error) {
+static gvc_result move_loop(gvc_loops *d, uint32_t through, vertex_loop *loop, gvc_error *error) {
     for (int i = 0; i < MOVES; i++) {
         vertex_loop next;
-        find_loops(d, through);
+        GVC_TRY(gvc_loops_find(d, through, error));
         if (d->edge_count == 0) return GVC_OK;
         uint32_t h = d->edge[d->edge_count - 1].h;
         GVC_TRY(take_loop(d, h, &next, error));
@@ -270,7 +84,7 @@ static gvc_result move_loop(decomposition *d, uint32_t through, vertex_loop *loo
 }
 
 /* The shortest of the loops to be had by moving the shortest ones that `d` found. */
-static gvc_result move_loops(decomposition *d, vertex_loop *best, gvc_error *error) {
+static gvc_result move_loops(gvc_loops *d, vertex_loop *best, gvc_error *error) {
     size_t count = d->edge_count < STARTS ? d->edge_count : STARTS;
     uint32_t start[STARTS];
     for (size_t i = 0; i < count; i++) start[i] = d->edge[d->edge_count - 1 - i].h;
@@ -289,7 +103,7 @@ static gvc_result move_loops(decomposition *d, vertex_loop *best, gvc_error *err
 }
 
 /* The free vertex nearest to a vertex. */
-static uint32_t free_vertex(const decomposition *d, uint32_t from) {
+static uint32_t free_vertex(const gvc_loops *d, uint32_t from) {
     const gvc_halfedges *mesh = d->mesh;
     const double *p = mesh->position + 3 * (size_t)from;
     uint32_t nearest = GVC_NONE;
@@ -306,26 +120,20 @@ static uint32_t free_vertex(const decomposition *d, uint32_t from) {
 
 static gvc_result first_loop(gvc_halfedges *mesh, const gvc_obstacles *obstacles, uint32_t from,
                              bool near, vertex_loop *loop, gvc_error *error) {
-    decomposition d;
+    gvc_loops loops;
     *loop = (vertex_loop){0};
-    GVC_TRY(loosen(mesh, obstacles, error));
-    gvc_result result = decomposition_set(&d, mesh, obstacles) ? GVC_OK : gvc_fail_memory(error);
-    uint32_t start = result == GVC_OK ? free_vertex(&d, from) : GVC_NONE;
-    if (start != GVC_NONE) {
-        find_loops(&d, start);
-        for (size_t v = 0; result == GVC_OK && v < mesh->vertex_count; v++)
-            if (!d.blocked[v] && !isfinite(d.distance[v]))
-                result = gvc_fail(error, GVC_ERROR_MESH,
-                                  "vertex %zu cannot be reached: the surface is in pieces", v);
-        if (result == GVC_OK && d.edge_count > 0)
-            result = take_loop(&d, d.edge[d.edge_count - 1].h, loop, error);
-        if (result == GVC_OK && loop->vertex && !near) result = move_loops(&d, loop, error);
-    }
+    GVC_TRY(gvc_loops_prepare(mesh, obstacles, &loops, error));
+    gvc_result result = GVC_OK;
+    uint32_t start = free_vertex(&loops, from);
+    if (start != GVC_NONE) result = gvc_loops_find(&loops, start, error);
+    if (result == GVC_OK && loops.edge_count > 0)
+        result = take_loop(&loops, loops.edge[loops.edge_count - 1].h, loop, error);
+    if (result == GVC_OK && loop->vertex && !near) result = move_loops(&loops, loop, error);
     if (result != GVC_OK) {
         free(loop->vertex);
         *loop = (vertex_loop){0};
     }
-    decomposition_free(&d);
+    gvc_loops_free(&loops);
     return result;
 }
 

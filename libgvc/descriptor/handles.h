@@ -4,6 +4,7 @@
 #ifndef GVC_DESCRIPTOR_HANDLES_H
 #define GVC_DESCRIPTOR_HANDLES_H
 
+#include "descriptor/loops.h"
 #include "descriptor/path.h"
 
 /** Two loops along edges of the mesh that meet in one vertex, their base, and cross there.
@@ -16,14 +17,6 @@ typedef struct gvc_handle {
 } gvc_handle;
 
 void gvc_handle_free(gvc_handle *handle);
-
-/** What a handle must keep clear of; everything is borrowed. Cut along the graph, each part of
- * which is a tree or a handle, the surface must be in one piece. */
-typedef struct gvc_obstacles {
-    const gvc_cut_graph *graph;
-    const uint32_t *vertex; /**< others besides; GVC_NONE for one that does not count any more */
-    size_t vertex_count;
-} gvc_obstacles;
 
 /** Finds a handle of a closed surface by the greedy system of loops (Erickson & Whittlesey 2005):
  *  the shortest of its loops through (or else round) `from`, and a shortest loop that crosses it.

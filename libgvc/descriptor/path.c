@@ -186,6 +186,10 @@ void gvc_pathfinder_mark_graph(gvc_pathfinder *f, gvc_corner_role role) {
             gvc_pathfinder_mark_vertex(f, f->graph->edge[e].vertex[i], role);
 }
 
+bool gvc_pathfinder_on_graph(const gvc_pathfinder *f, uint32_t h) {
+    return f->wall[f->edge[h]] != 0;
+}
+
 /* --------------------------------------------------------------------------------------- search */
 
 static void heap_push(gvc_pathfinder *f, double key, uint32_t node) {

@@ -66,6 +66,9 @@ void gvc_pathfinder_mark_vertex(gvc_pathfinder *finder, uint32_t vertex, gvc_cor
 void gvc_pathfinder_mark_sector(gvc_pathfinder *finder, uint32_t h, gvc_corner_role role);
 /** Gives every corner at the vertices of the graph, on all sides, one role. */
 void gvc_pathfinder_mark_graph(gvc_pathfinder *finder, gvc_corner_role role);
+/** True if the edge of halfedge `h` belongs to the graph. */
+bool gvc_pathfinder_on_graph(const gvc_pathfinder *finder, uint32_t h);
+
 /** Finds the cheapest path from any source to any target corner; `weight` may be NULL. Fails only
  *  for lack of memory; `path` is empty if there is no path. */
 gvc_result gvc_pathfinder_find(gvc_pathfinder *finder, gvc_path_weight weight, const void *context,

@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "descriptor/consistent.h"
 #include "descriptor/geodesic.h"
+#include "descriptor/handle_graph.h"
 #include "descriptor/handle_link.h"
 #include "descriptor/match.h"
 #include "descriptor/rigid.h"
@@ -37,6 +38,7 @@ enum { HANDLE_MEMORY = 8 };
 /* What is known of the frame cut last. */
 typedef struct gvc_tracked {
     bool started;
+    bool single;          /* nothing else is known, by intention */
     size_t genus, wanted; /* extrema asked for */
     unsigned search;      /* gvc_handle_search */
     /* Of the first frame: each frame is compared with the one before it, and a normalisation of its
@@ -380,6 +382,54 @@ static gvc_result start(gvc_tracked *t, const gvc_features *features, workspace 
     return remember_points(t, w, true, error);
 }
 
+/* Cuts all handles by one graph, whose node nearest to the root of `features` becomes the root. */
+static gvc_result begin_graph(const gvc_features *features, workspace *w, gvc_error *error) {
+    gvc_cut_graph *graph = w->routing.graph;
+    double least = INFINITY;
+    uint32_t nearest = 0;
+    GVC_TRY(gvc_handle_graph(w->routing.finder, w->routing.mesh, features->root, graph, error));
+    const double *p = w->routing.mesh->position + 3 * (size_t)features->root;
+    for (uint32_t n = 0; n < graph->node_count; n++) {
+        const double *q = w->routing.mesh->position + 3 * (size_t)graph->node[n].vertex;
+        double away = hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]);
+        if (away >= least) continue;
+        least = away;
+        nearest = n;
+    }
+    graph->node[nearest].kind = GVC_NODE_ROOT;
+    w->root = graph->node[nearest].vertex;
+    return GVC_OK;
+}
+
+/* Leaves out extrema that lie on the graph already. */
+static void drop_covered_tips(gvc_tracked *t, const gvc_cut_graph *graph) {
+    size_t kept = 0;
+    for (size_t i = 0; i < t->tip_count; i++) {
+        uint32_t node, edge;
+        size_t place;
+        gvc_cut_graph_locate(graph, t->tip[i].vertex, &node, &edge, &place);
+        if (node == GVC_NONE && edge == GVC_NONE) t->tip[kept++] = t->tip[i];
+    }
+    t->tip_count = t->matched_count = kept;
+}
+
+/* A cut for one frame only. */
+static gvc_result start_single(gvc_tracked *t, const gvc_features *features, workspace *w,
+                               gvc_error *error) {
+    bool disk = false;
+    GVC_TRY(begin_graph(features, w, error));
+    GVC_TRY(take_extrema(t, features, w->root, error));
+    drop_covered_tips(t, w->routing.graph);
+    if (!make_room(t, t->tip_count)) return gvc_fail_memory(error);
+    GVC_TRY(workspace_allocate(w, t, error));
+    for (size_t i = 0; i < t->tip_count; i++) w->tip[i] = t->tip[i].vertex;
+    GVC_TRY(attach_coordinates(w, t, features, error));
+    for (size_t i = 0; i < t->tip_count; i++)
+        GVC_TRY(gvc_link_nearest(&w->routing, &t->link[t->link_count++], error));
+    GVC_TRY(walk_border(t, w, &disk, error));
+    return check_disk(t, w->routing.graph, disk, error);
+}
+
 gvc_result gvc_tracker_start(gvc_tracker *tracker, const gvc_features *features,
                              size_t extremum_count, unsigned search, gvc_halfedges *mesh,
                              gvc_cut_graph *graph, gvc_error *error) {
@@ -387,21 +437,22 @@ gvc_result gvc_tracker_start(gvc_tracker *tracker, const gvc_features *features,
     handle_list handles = {0};
     gvc_tracked *t = &tracker->known;
     forget(t);
-    tracker->lost = false;
     workspace_set(&w, tracker, mesh, graph);
     t->genus = gvc_mesh_genus(mesh);
     t->wanted = extremum_count;
     t->search = search;
     t->diagonal = features->diagonal > 0 ? features->diagonal : 1;
     t->scale = features->geodesic_scale > 0 ? features->geodesic_scale : 1;
-    gvc_result result = start(t, features, &w, &handles, error);
+    tracker->lost = false;
+    bool single = t->genus > 0 && search == GVC_HANDLES_GRAPH;
+    gvc_result result =
+        single ? start_single(t, features, &w, error) : start(t, features, &w, &handles, error);
     handle_list_free(&handles);
     workspace_free(&w);
     t->started = result == GVC_OK;
-    if (result != GVC_OK) {
-        gvc_cut_graph_free(graph);
-        forget(t);
-    }
+    if (result != GVC_OK) gvc_cut_graph_free(graph);
+    if (result != GVC_OK || single) forget(t);
+    t->single = result == GVC_OK && single;
     return result;
 }
 
@@ -707,6 +758,7 @@ gvc_result gvc_tracker_next(gvc_tracker *tracker, const gvc_features *features, 
                             gvc_cut_graph *graph, bool *kept, gvc_error *error) {
     *graph = (gvc_cut_graph){0};
     *kept = false;
+    if (tracker->known.single) return GVC_OK;
     if (!tracker->known.started || tracker->lost)
         return gvc_fail(error, GVC_ERROR_ARGUMENT, "there is no earlier frame to track from");
     gvc_result result = GVC_OK;

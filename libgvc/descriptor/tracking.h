@@ -25,8 +25,10 @@ void gvc_tracker_destroy(gvc_tracker **tracker);
  * surfaces, but may leave parts of others behind narrow necks, where a chart folds. */
 typedef enum gvc_handle_search {
     GVC_HANDLES_SHORT = 0,     /**< all over the surface, the shortest ones */
-    GVC_HANDLES_NEAR_ROOT = 1, /**< the shortest through or round the root */
-    GVC_HANDLES_NEAR_TIP = 2   /**< + i: the shortest through or round tip i, or the last one */
+    GVC_HANDLES_GRAPH = 1,     /**< all handles by one short graph that has no part for each of
+                                    them: good charts, but frames that follow cannot be cut alike */
+    GVC_HANDLES_NEAR_ROOT = 2, /**< the shortest through or round the root */
+    GVC_HANDLES_NEAR_TIP = 3   /**< + i: the shortest through or round tip i, or the last one */
 } gvc_handle_search;
 
 /** First frame of a segment. Cuts `mesh` (refining it by splits) from features->root to the

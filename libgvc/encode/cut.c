@@ -54,10 +54,10 @@ static gvc_result cut_somehow(const gvc_cutter *cutter, gvc_frame_work *work, gv
         int more;
         unsigned search;
     } attempt[] = {
-        {0, GVC_HANDLES_SHORT},        {0, GVC_HANDLES_NEAR_TIP},     {0, GVC_HANDLES_NEAR_TIP + 2},
-        {1, GVC_HANDLES_SHORT},        {2, GVC_HANDLES_SHORT},        {-1, GVC_HANDLES_SHORT},
-        {1, GVC_HANDLES_NEAR_TIP},     {2, GVC_HANDLES_NEAR_TIP},     {0, GVC_HANDLES_NEAR_TIP + 1},
-        {0, GVC_HANDLES_NEAR_TIP + 3}, {2, GVC_HANDLES_NEAR_TIP + 1}, {0, GVC_HANDLES_NEAR_ROOT}};
+        {0, GVC_HANDLES_SHORT},        {1, GVC_HANDLES_SHORT},    {2, GVC_HANDLES_SHORT},
+        {-1, GVC_HANDLES_SHORT},       {0, GVC_HANDLES_NEAR_TIP}, {0, GVC_HANDLES_NEAR_TIP + 1},
+        {0, GVC_HANDLES_GRAPH},        {1, GVC_HANDLES_GRAPH},    {2, GVC_HANDLES_GRAPH},
+        {0, GVC_HANDLES_NEAR_TIP + 2}, {0, GVC_HANDLES_NEAR_ROOT}};
     bool handles = cutter->facts[work->number].genus > 0;
     gvc_result result = GVC_ERROR_MESH;
     for (size_t i = 0; i < sizeof attempt / sizeof *attempt && result == GVC_ERROR_MESH; i++) {
@@ -119,9 +119,10 @@ static gvc_result cut_again(const gvc_cutter *cutter, gvc_frame_work *work, gvc_
     return result;
 }
 
-/* A segment that begins with the cut of the frame before may do better with one of its own. */
-static gvc_result try_anew(const gvc_cutter *cutter, gvc_frame_work *work, gvc_segment *segment,
-                           gvc_error *error) {
+/* A segment may do better with another cut than the one it has, such as that of the frame before.
+ */
+static gvc_result try_instead(const gvc_cutter *cutter, gvc_frame_work *work, cut_choice choice,
+                              gvc_segment *segment, gvc_error *error) {
     gvc_halfedges halfedges = work->halfedges;
     gvc_cut_graph graph = work->graph;
     gvc_segment other = *segment;
@@ -133,8 +134,7 @@ static gvc_result try_anew(const gvc_cutter *cutter, gvc_frame_work *work, gvc_s
     other.sides = (gvc_side_table){0};
     other.weld = (gvc_weld){0};
     gvc_tracker_set_aside(cutter->tracker);
-    gvc_result result = try_cut(
-        cutter, work, (cut_choice){segment->extremum_count, GVC_HANDLES_SHORT}, &other, &trouble);
+    gvc_result result = try_cut(cutter, work, choice, &other, &trouble);
     bool better = result == GVC_OK && other.trial_rms < WORTH_A_NEW_CUT * segment->trial_rms;
     if (better) {
         gvc_segment worse = *segment;
@@ -159,14 +159,18 @@ gvc_result gvc_cut_begin(const gvc_cutter *cutter, uint64_t number, gvc_frame_wo
                          gvc_segment *segment, gvc_error *error) {
     GVC_TRY(gvc_segment_begin(cutter->source, cutter->options, cutter->facts, number, work->number,
                               segment, error));
+    bool alone = segment->end_frame == segment->first_frame + 1;
     /* the first frame of a capture is, with luck, resumed from */
-    bool still = segment->end_frame == segment->first_frame + 1 &&
-                 (work->number > 0 || cutter->source->frame_count == 1);
+    bool still = alone && (work->number > 0 || cutter->source->frame_count == 1);
     bool done = false;
     gvc_result result = cut_again(cutter, work, segment, &done, error);
-    if (result == GVC_OK && done) result = try_anew(cutter, work, segment, error);
+    const cut_choice own = {segment->extremum_count, GVC_HANDLES_SHORT},
+                     single = {segment->extremum_count, GVC_HANDLES_GRAPH};
+    if (result == GVC_OK && done) result = try_instead(cutter, work, own, segment, error);
     if (result == GVC_OK && !done)
         result = still ? cut_still(cutter, work, segment, error)
                        : cut_somehow(cutter, work, segment, error);
+    if (result == GVC_OK && alone && cutter->facts[work->number].genus > 0)
+        result = try_instead(cutter, work, single, segment, error);
     return gvc_at_frame(error, result, (int64_t)work->number);
 }
