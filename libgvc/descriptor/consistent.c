@@ -92,3 +92,18 @@ gvc_result gvc_consistent_vertex(gvc_halfedges *mesh, const gvc_coordinates *coo
     free(c.point);
     return result;
 }
+
+uint32_t gvc_nearest_vertex(const gvc_halfedges *mesh, const gvc_coordinates *coordinates,
+                            const double *point) {
+    double p[3], least = INFINITY;
+    uint32_t nearest = GVC_NONE;
+    gvc_coordinates_position(coordinates, point, p);
+    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+        const double *q = mesh->position + 3 * (size_t)v;
+        double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2], square = x * x + y * y + z * z;
+        if (!(square < least)) continue;
+        least = square;
+        nearest = v;
+    }
+    return nearest;
+}

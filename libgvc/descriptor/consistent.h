@@ -14,4 +14,8 @@ gvc_result gvc_consistent_vertex(gvc_halfedges *mesh, const gvc_coordinates *coo
                                  size_t features, const double *wanted, const uint32_t *taken,
                                  size_t taken_count, uint32_t *vertex, gvc_error *error);
 
+/** The vertex nearest to the position that coordinates hold. */
+uint32_t gvc_nearest_vertex(const gvc_halfedges *mesh, const gvc_coordinates *coordinates,
+                            const double *point);
+
 #endif

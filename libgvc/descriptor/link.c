@@ -14,7 +14,7 @@ static const gvc_edge_end no_end = {GVC_NONE, 0};
 static const double node_reach = 0.02;
 /* Standard deviation of E_d and E_p in normalised coordinates, less round a narrow handle: at most
  * this part of the length of the path. And where the exponents level off. */
-static const double usual_deviation = 0.05, handle_deviation = 0.1, greatest_exponent = 50;
+static const double usual_deviation = 0.05, handle_deviation = 1, greatest_exponent = 50;
 /* A path is given up if its mean distance to the one before is over this. */
 static const double greatest_departure = 1;
 
@@ -22,6 +22,23 @@ void gvc_link_free(gvc_link *link) {
     free(link->junction);
     gvc_prior_free(&link->prior);
     *link = (gvc_link){0};
+}
+
+static void *copy_of(const double *from, size_t count) {
+    double *to = gvc_alloc(count, sizeof *to);
+    if (to) memcpy(to, from, count * sizeof *to);
+    return to;
+}
+
+gvc_result gvc_link_copy(const gvc_link *from, gvc_link *to, gvc_error *error) {
+    size_t n = from->prior.dimensions;
+    *to = *from;
+    to->junction = copy_of(from->junction, n);
+    to->prior.sample = copy_of(from->prior.sample, n * (GVC_PRIOR_SEGMENTS + 1));
+    to->prior.box = copy_of(from->prior.box, n * 4 * GVC_PRIOR_SEGMENTS);
+    if (to->junction && to->prior.sample && to->prior.box) return GVC_OK;
+    gvc_link_free(to);
+    return gvc_fail_memory(error);
 }
 
 static double gap(const gvc_halfedges *mesh, uint32_t a, uint32_t b) {
@@ -75,11 +92,10 @@ static gvc_result remember(const gvc_routing *r, gvc_link *link, const uint32_t 
         for (size_t i = 0; i < count; i++) point[i] = (gvc_surface_point){chain[i], GVC_NONE, 0};
         gvc_coordinates_of_vertex(r->mesh, &r->coordinates, chain[0], link->junction);
         result = set_prior(r, point, count, &link->prior, error);
+        link->length = chain_length(r, chain, count) / r->coordinates.diagonal;
         link->deviation = usual_deviation;
         if (link->tip == GVC_NONE)
-            link->deviation =
-                fmin(link->deviation,
-                     handle_deviation * chain_length(r, chain, count) / r->coordinates.diagonal);
+            link->deviation = fmin(link->deviation, handle_deviation * link->length);
     }
     free(point);
     return result;
@@ -87,9 +103,16 @@ static gvc_result remember(const gvc_routing *r, gvc_link *link, const uint32_t 
 
 /* ------------------------------------------------------------------------------------ searching */
 
-/* Begins a search with the tips that are not linked yet blocked. */
+/* Begins a search with the tips that are not linked yet, and the obstacles, blocked. */
 static gvc_result begin(const gvc_routing *r, gvc_error *error) {
+    const gvc_obstacles *o = &r->obstacles;
     GVC_TRY(gvc_pathfinder_begin(r->finder, r->mesh, r->graph, error));
+    for (size_t i = 0; i < o->vertex_count; i++)
+        if (o->vertex[i] != GVC_NONE)
+            gvc_pathfinder_mark_vertex(r->finder, o->vertex[i], GVC_CORNER_BLOCKED);
+    for (size_t e = 0; o->graph && e < o->graph->edge_count; e++)
+        GVC_TRY(gvc_pathfinder_block(r->finder, o->graph->edge[e].vertex,
+                                     o->graph->edge[e].vertex_count, error));
     for (size_t i = 0; i < r->tip_count; i++)
         if (!r->linked[i]) gvc_pathfinder_mark_vertex(r->finder, r->tip[i], GVC_CORNER_BLOCKED);
     return GVC_OK;
@@ -105,14 +128,19 @@ static void mark_end(const gvc_routing *r, uint32_t node, gvc_edge_end after,
                                    role);
 }
 
-/* Begins a search between the two ends of the link. */
-static gvc_result begin_link(const gvc_routing *r, const gvc_link *link, gvc_error *error) {
-    GVC_TRY(begin(r, error));
-    mark_end(r, link->node[0], link->after[0], GVC_CORNER_SOURCE);
+/* The end of a link is where its path leads to. */
+static void mark_target(const gvc_routing *r, const gvc_link *link) {
     if (link->tip != GVC_NONE)
         gvc_pathfinder_mark_vertex(r->finder, r->tip[link->tip], GVC_CORNER_TARGET);
     else
         mark_end(r, link->node[1], link->after[1], GVC_CORNER_TARGET);
+}
+
+/* Begins a search between the two ends of the link. */
+static gvc_result begin_link(const gvc_routing *r, const gvc_link *link, gvc_error *error) {
+    GVC_TRY(begin(r, error));
+    mark_end(r, link->node[0], link->after[0], GVC_CORNER_SOURCE);
+    mark_target(r, link);
     return GVC_OK;
 }
 
@@ -159,9 +187,10 @@ static uint32_t tip_at(const gvc_routing *r, uint32_t vertex) {
     return GVC_NONE;
 }
 
-/* Finds or makes the node from which the shortest path leaves the graph; if that is not where the
- * path begins, the path is found anew. */
-static gvc_result attach(gvc_routing *r, gvc_link *link, gvc_surface_path *path, gvc_error *error) {
+/* Finds or makes the node from which the path leaves the graph; if that is not where the path
+ * begins, the path is found anew. */
+static gvc_result attach(gvc_routing *r, gvc_link *link, gvc_path_weight weight,
+                         const void *context, gvc_surface_path *path, gvc_error *error) {
     uint32_t edge;
     size_t place;
     link->parent = GVC_NONE;
@@ -174,8 +203,8 @@ static gvc_result attach(gvc_routing *r, gvc_link *link, gvc_surface_path *path,
     }
     GVC_TRY(begin(r, error));
     gvc_pathfinder_mark_vertex(r->finder, r->graph->node[link->node[0]].vertex, GVC_CORNER_SOURCE);
-    gvc_pathfinder_mark_vertex(r->finder, r->tip[link->tip], GVC_CORNER_TARGET);
-    return gvc_pathfinder_find(r->finder, NULL, NULL, path, error);
+    mark_target(r, link);
+    return gvc_pathfinder_find(r->finder, weight, context, path, error);
 }
 
 gvc_result gvc_link_nearest(gvc_routing *r, gvc_link *link, gvc_error *error) {
@@ -191,11 +220,30 @@ gvc_result gvc_link_nearest(gvc_routing *r, gvc_link *link, gvc_error *error) {
                            "an extremum cannot be reached from the cut graph: the surface has "
                            "several components"));
     link->tip = tip_at(r, path.point[path.count - 1].a);
-    GVC_CHECK(attach(r, link, &path, error));
+    GVC_CHECK(attach(r, link, NULL, NULL, &path, error));
     if (path.count == 0)
         GVC_CHECK(gvc_fail(error, GVC_ERROR_INTERNAL, "no path from node %u", link->node[0]));
     result = add_path(r, link, &path, error);
 cleanup:
+    gvc_surface_path_free(&path);
+    return result;
+}
+
+gvc_result gvc_link_attach(gvc_routing *r, size_t nodes, size_t edges, gvc_link *link, bool *kept,
+                           gvc_error *error) {
+    gvc_surface_path path = {0};
+    gvc_result result = begin(r, error);
+    if (result != GVC_OK) return result;
+    for (size_t n = 0; n < nodes; n++)
+        gvc_pathfinder_mark_vertex(r->finder, r->graph->node[n].vertex, GVC_CORNER_SOURCE);
+    for (size_t e = 0; e < edges; e++)
+        for (size_t i = 1; i + 1 < r->graph->edge[e].vertex_count; i++)
+            gvc_pathfinder_mark_vertex(r->finder, r->graph->edge[e].vertex[i], GVC_CORNER_SOURCE);
+    mark_target(r, link);
+    result = gvc_pathfinder_find(r->finder, NULL, NULL, &path, error);
+    if (result == GVC_OK && path.count > 0) result = attach(r, link, NULL, NULL, &path, error);
+    *kept = result == GVC_OK && path.count > 0;
+    if (*kept) result = add_path(r, link, &path, error);
     gvc_surface_path_free(&path);
     return result;
 }
@@ -253,7 +301,7 @@ static gvc_result make_junction(gvc_routing *r, gvc_link *link, gvc_surface_path
     double *work = gvc_alloc(4 * n, sizeof *work), *shortest = NULL;
     gvc_result result = work ? GVC_OK : gvc_fail_memory(error);
     if (result != GVC_OK) return result;
-    if (r->options->lambda < 1) {
+    if (r->options->lambda < 1 && link->tip != GVC_NONE) {
         GVC_CHECK(begin(r, error));
         gvc_pathfinder_mark_graph(r->finder, GVC_CORNER_SOURCE);
         gvc_pathfinder_mark_vertex(r->finder, r->tip[link->tip], GVC_CORNER_TARGET);
@@ -352,11 +400,34 @@ gvc_result gvc_link_again(gvc_routing *r, gvc_link *link, bool *kept, gvc_error 
     *kept = path.count > 0;
     if (!*kept) goto cleanup;
     GVC_CHECK(set_prior(r, path.point, path.count, &now, error));
-    *kept = stays(r, &now, &link->prior);
+    /* A handle need not: it may open and close elsewhere, and what matters is that it is one. */
+    *kept = link->tip == GVC_NONE || stays(r, &now, &link->prior);
     if (*kept) result = add_path(r, link, &path, error);
 cleanup:
     gvc_surface_path_free(&path);
     gvc_prior_free(&now);
+    return result;
+}
+
+gvc_result gvc_link_resume(gvc_routing *r, gvc_link *link, bool *kept, gvc_error *error) {
+    gvc_surface_path path = {0};
+    evidence e = {.coordinates = &r->coordinates,
+                  .previous = &link->prior,
+                  .previous_weight = r->options->prior_weight,
+                  .variance = link->deviation * link->deviation};
+    gvc_result result = GVC_OK;
+    e.point = gvc_alloc(r->coordinates.dimension, sizeof *e.point);
+    if (!e.point) GVC_CHECK(gvc_fail_memory(error));
+    GVC_CHECK(begin(r, error));
+    gvc_pathfinder_mark_graph(r->finder, GVC_CORNER_SOURCE);
+    mark_target(r, link);
+    GVC_CHECK(gvc_pathfinder_find(r->finder, evidence_weight, &e, &path, error));
+    if (path.count > 0) GVC_CHECK(attach(r, link, evidence_weight, &e, &path, error));
+    *kept = path.count > 0;
+    if (*kept) result = add_path(r, link, &path, error);
+cleanup:
+    free(e.point);
+    gvc_surface_path_free(&path);
     return result;
 }
 
@@ -366,6 +437,7 @@ gvc_result gvc_link_of_edge(const gvc_routing *r, uint32_t edge, gvc_link *link,
     const gvc_cut_edge *e = &r->graph->edge[edge];
     gvc_cut_graph before = *r->graph;
     before.edge_count = edge;
+    gvc_link_free(link);
     *link = (gvc_link){.tip = GVC_NONE, .parent = GVC_NONE, .node = {e->node[0], e->node[1]}};
     for (unsigned i = 0; i < 2; i++) {
         uint32_t h = gvc_edge_end_halfedge(r->mesh, r->graph, (gvc_edge_end){edge, i});

@@ -138,18 +138,24 @@ gvc_result gvc_pathfinder_begin(gvc_pathfinder *f, const gvc_halfedges *mesh,
     memset(f->role, GVC_CORNER_FREE, 3 * mesh->face_count);
     memset(f->special, 0, f->vertex_count);
     memset(f->wall, 0, f->edge_count);
-    for (size_t e = 0; e < graph->edge_count; e++) {
-        const gvc_cut_edge *edge = &graph->edge[e];
-        for (size_t i = 0; i + 1 < edge->vertex_count; i++) {
-            uint32_t h = gvc_halfedge_between(mesh, edge->vertex[i], edge->vertex[i + 1]);
-            if (h == GVC_NONE)
-                return gvc_fail(error, GVC_ERROR_INTERNAL,
-                                "cut edge %zu jumps from vertex %u to %u, which are not neighbours",
-                                e, edge->vertex[i], edge->vertex[i + 1]);
-            f->wall[f->edge[h]] = 1;
-        }
-    }
+    for (size_t e = 0; e < graph->edge_count; e++)
+        GVC_TRY(gvc_pathfinder_block(f, graph->edge[e].vertex, graph->edge[e].vertex_count, error));
     gvc_pathfinder_mark_graph(f, GVC_CORNER_BLOCKED);
+    return GVC_OK;
+}
+
+gvc_result gvc_pathfinder_block(gvc_pathfinder *f, const uint32_t *chain, size_t count,
+                                gvc_error *error) {
+    for (size_t i = 0; i < count; i++) {
+        gvc_pathfinder_mark_vertex(f, chain[i], GVC_CORNER_BLOCKED);
+        if (i == 0) continue;
+        uint32_t h = gvc_halfedge_between(f->mesh, chain[i - 1], chain[i]);
+        if (h == GVC_NONE)
+            return gvc_fail(error, GVC_ERROR_INTERNAL,
+                            "a cut edge jumps from vertex %u to %u, which are not neighbours",
+                            chain[i - 1], chain[i]);
+        f->wall[f->edge[h]] = 1;
+    }
     return GVC_OK;
 }
 
@@ -407,15 +413,18 @@ static void straighten(gvc_pathfinder *f, gvc_surface_path *path) {
     /* Both ends may be joined by an edge of the graph: the path must not fall on it. */
     bool ends_joined = joined_by_wall(f, path->point[0].a, path->point[path->count - 1].a);
     size_t count = 0, total = path->count;
-    for (uint32_t i = 0; i < total; i++)
+    uint32_t last = (uint32_t)total - 1;
+    for (uint32_t i = 0; i < last; i++)
         visit_faces(f, &path->point[i], role_at(path, i), note_last, &i);
+    if (!ends_joined) visit_faces(f, &path->point[last], GVC_CORNER_TARGET, note_last, &last);
     for (uint32_t i = 0;;) {
         uint32_t furthest = i;
         visit_faces(f, &path->point[i], role_at(path, i), take_last, &furthest);
-        if (i == 0 && furthest + 1 == total && ends_joined) furthest = (uint32_t)total - 2;
         path->point[count++] = path->point[i];
-        if (i + 1 >= total || furthest <= i) break;
-        i = furthest;
+        if (i == last) break;
+        if (i == 0 && ends_joined)
+            visit_faces(f, &path->point[last], GVC_CORNER_TARGET, note_last, &last);
+        i = furthest > i ? furthest : i + 1;
     }
     path->count = count;
 }

@@ -55,6 +55,10 @@ void gvc_pathfinder_destroy(gvc_pathfinder **finder);
  *  and all corners at its nodes and edges are blocked, everything else is free. */
 gvc_result gvc_pathfinder_begin(gvc_pathfinder *finder, const gvc_halfedges *mesh,
                                 const gvc_cut_graph *graph, gvc_error *error);
+/** Blocks the edges between consecutive vertices of a chain, and all corners at them, as if the
+ * chain were an edge of the graph. */
+gvc_result gvc_pathfinder_block(gvc_pathfinder *finder, const uint32_t *chain, size_t count,
+                                gvc_error *error);
 /** Gives all corners of a vertex one role. */
 void gvc_pathfinder_mark_vertex(gvc_pathfinder *finder, uint32_t vertex, gvc_corner_role role);
 /** Gives the corners of one sector a role: those met turning counter-clockwise round its vertex

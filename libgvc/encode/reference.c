@@ -7,7 +7,7 @@
 #include "chart/parameterize.h"
 #include "descriptor/geodesic.h"
 #include "descriptor/graph_edit.h"
-#include "descriptor/handles.h"
+#include "descriptor/handle_graph.h"
 #include "encode/stretch.h"
 
 #include <math.h>
@@ -77,7 +77,7 @@ static gvc_result first_cut(growth *g, gvc_error *error) {
     uint32_t middle;
     GVC_TRY(farthest(mesh, mesh->vertex, 3, &middle, error));
     if (gvc_mesh_genus(mesh) == 0) return open_at(mesh, middle, graph, error);
-    GVC_TRY(gvc_handles_cut(g->finder, mesh, middle, graph, error));
+    GVC_TRY(gvc_handle_graph(g->finder, mesh, middle, graph, error));
     graph->node[0].kind = GVC_NODE_ROOT;
     return GVC_OK;
 }

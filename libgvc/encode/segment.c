@@ -12,6 +12,9 @@
 #include <string.h>
 
 #define VOTES 7
+/* Frames that vote at least, be the genus what it is: a limb does not go because a hand touches a
+ * hip, and where handles come and go the number of extrema must not come and go with them. */
+#define VOTE_SPAN 60
 #define LUMA_MAX ((1 << GVC_LUMA_BITS) - 1)
 /* Samples fitted by least squares overshoot the surface a little. */
 #define CUBE_MARGIN 0.01
@@ -42,7 +45,7 @@ static void set_cube(gvc_segment *segment, const gvc_scan_frame *facts) {
 typedef struct vote_context {
     const gvc_source *source;
     bool weld;
-    uint64_t first, count; /* frames of the run */
+    uint64_t first, count; /* frames that votes are taken from */
     size_t votes;
     double persistence;
     size_t extrema[VOTES];
@@ -68,14 +71,19 @@ static int compare_sizes(const void *a, const void *b) {
     return x < y ? -1 : x > y;
 }
 
-/* The median of what frames spread over the run say: one wrong tip ruins a sequence. */
+/* The median of what frames spread over the run say: one wrong tip ruins a sequence. It holds for
+ * all segments that begin there. */
 static gvc_result vote(gvc_segment *segment, const gvc_source *source,
                        const gvc_encode_options *options, gvc_error *error) {
+    uint64_t first = segment->first_frame, end = segment->end_frame;
+    uint64_t left = source->frame_count - first;
+    if (end - first < VOTE_SPAN) end = first + (left < VOTE_SPAN ? left : VOTE_SPAN);
     vote_context context = {.source = source,
                             .weld = options->weld,
-                            .first = segment->first_frame,
-                            .count = segment->end_frame - segment->first_frame,
+                            .first = first,
+                            .count = end - first,
                             .persistence = options->persistence};
+    segment->vote_end = end;
     context.votes = context.count < VOTES ? (size_t)context.count : VOTES;
     GVC_TRY(gvc_parallel_for(options->threads, context.votes, vote_one, &context, error));
     qsort(context.extrema, context.votes, sizeof *context.extrema, compare_sizes);
@@ -99,8 +107,8 @@ gvc_result gvc_segment_begin(const gvc_source *source, const gvc_encode_options 
     segment->image_options.fit = true;
     segment->image_options.align = 0.5;
     set_cube(segment, facts);
-    segment->vote_end = segment->end_frame;
-    if (vote_end == segment->vote_end) {
+    if (first < vote_end) {
+        segment->vote_end = vote_end;
         segment->extremum_count = extremum_count;
         return GVC_OK;
     }

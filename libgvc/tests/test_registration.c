@@ -190,7 +190,9 @@ static void test_root_turns_with_the_body(void **state) {
         assert_int_equal(gvc_halfedges_copy(&m, &whole, NULL), GVC_OK);
         assert_int_equal(gvc_features_find(&m, &feature_options, &features, NULL), GVC_OK);
         if (frame == 0) {
-            assert_int_equal(gvc_tracker_start(tracker, &features, 2, &m, &graph, NULL), GVC_OK);
+            assert_int_equal(
+                gvc_tracker_start(tracker, &features, 2, GVC_HANDLES_SHORT, &m, &graph, NULL),
+                GVC_OK);
         } else {
             assert_int_equal(gvc_warp_create(&before, &m, &warp, NULL), GVC_OK);
             assert_int_equal(gvc_tracker_next(tracker, &features, warp, &m, &graph, &kept, NULL),

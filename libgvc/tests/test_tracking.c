@@ -167,7 +167,8 @@ static void track_segment(surface_maker make, size_t tips, size_t genus, int fra
         gvc_result result;
         assert_int_equal(gvc_features_find(&mesh, &few_samples, &features, NULL), GVC_OK);
         if (frame == 0)
-            result = gvc_tracker_start(tracker, &features, tips, &mesh, &graph, NULL);
+            result =
+                gvc_tracker_start(tracker, &features, tips, GVC_HANDLES_SHORT, &mesh, &graph, NULL);
         else
             result = gvc_tracker_next(tracker, &features, NULL, &mesh, &graph, &kept, NULL);
         assert_int_equal(result, GVC_OK);
@@ -222,8 +223,9 @@ static gvc_tracker *begun(void) {
     gvc_halfedges body = body_at(0);
     assert_int_equal(gvc_tracker_create(&usual, &tracker, NULL), GVC_OK);
     assert_int_equal(gvc_features_find(&body, &few_samples, &features, NULL), GVC_OK);
-    assert_int_equal(gvc_tracker_start(tracker, &features, LIMB_COUNT, &body, &graph, NULL),
-                     GVC_OK);
+    assert_int_equal(
+        gvc_tracker_start(tracker, &features, LIMB_COUNT, GVC_HANDLES_SHORT, &body, &graph, NULL),
+        GVC_OK);
     gvc_cut_graph_free(&graph);
     gvc_features_free(&features);
     gvc_halfedges_free(&body);
@@ -298,7 +300,8 @@ static void attributes_survive(void **state) {
     memcpy(body.attribute, body.position, 3 * body.vertex_count * sizeof *body.attribute);
     assert_int_equal(gvc_features_find(&body, &few_samples, &features, NULL), GVC_OK);
     assert_int_equal(gvc_tracker_create(&usual, &tracker, NULL), GVC_OK);
-    assert_int_equal(gvc_tracker_start(tracker, &features, 3, &body, &graph, NULL), GVC_OK);
+    assert_int_equal(
+        gvc_tracker_start(tracker, &features, 3, GVC_HANDLES_SHORT, &body, &graph, NULL), GVC_OK);
     assert_int_equal(body.attribute_count, 3);
     assert_true(body.vertex_count > plain.vertex_count);
     for (size_t i = 0; i < 3 * body.vertex_count; i++)
