@@ -245,10 +245,13 @@ gvc_result gvc_handle_link_elsewhere(gvc_routing *r, gvc_handle_link *handle, bo
     *kept = found.count[0] > 0;
     if (!*kept) return GVC_OK;
     gvc_result result = gvc_handle_rebase(r->finder, r->mesh, &obstacles, near, &found, error);
-    turn_to_fit(r, &found, handle);
+    if (result == GVC_OK) turn_to_fit(r, &found, handle);
     if (handle->joined) r->graph->node[0].vertex = found.loop[0][0];
+    double before[] = {handle->link[OUT].length, handle->link[BACK].length,
+                       handle->link[SECOND].length};
     if (result == GVC_OK) result = add_loops(r, &found, handle, error);
-    if (result == GVC_OK && !handle->joined) result = place_way(r, &handle->link[WAY], kept, error);
+    *kept = result == GVC_OK && !grew(handle, before);
+    if (*kept && !handle->joined) result = place_way(r, &handle->link[WAY], kept, error);
     gvc_handle_free(&found);
     return result;
 }

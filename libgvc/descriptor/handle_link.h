@@ -42,7 +42,7 @@ gvc_result gvc_handle_link_again(gvc_routing *routing, const uint32_t *point, bo
 
 /** Replaces the loops of the frame before by those of the nearest handle there is, with the way of
  * the frame before to them; if they are joined, the first node moves to them. `*kept` is false if
- * there is none. */
+ * there is none, or none with loops of about the same lengths. */
 gvc_result gvc_handle_link_elsewhere(gvc_routing *routing, gvc_handle_link *handle, bool *kept,
                                      gvc_error *error);
 

@@ -8,8 +8,10 @@
 
 /* More tips must lower the sampling error at least to this share. */
 #define WORTH_A_TIP 0.95
-/* So must a cut that has nothing to do with the one before. */
+/* So must a cut that has nothing to do with the one before, */
 #define WORTH_A_NEW_CUT 0.8
+/* and one that the frames to come cannot have. */
+#define WORTH_A_SINGLE_CUT 0.5
 
 gvc_result gvc_cut_follow(const gvc_cutter *cutter, const gvc_segment *segment,
                           gvc_frame_work *work, bool *continues, gvc_error *error) {
@@ -48,8 +50,8 @@ static gvc_result try_cut(const gvc_cutter *cutter, gvc_frame_work *work, cut_ch
 
 /* A chart that folds over itself, or a cut too long for the image, may come out well with other
  * tips, or with other loops round handles. */
-static gvc_result cut_somehow(const gvc_cutter *cutter, gvc_frame_work *work, gvc_segment *segment,
-                              gvc_error *error) {
+static gvc_result cut_somehow(const gvc_cutter *cutter, gvc_frame_work *work, unsigned search,
+                              gvc_segment *segment, gvc_error *error) {
     static const struct {
         int more;
         unsigned search;
@@ -65,6 +67,7 @@ static gvc_result cut_somehow(const gvc_cutter *cutter, gvc_frame_work *work, gv
         if (more < 0 && segment->extremum_count == 0) continue;
         if (!handles && attempt[i].search != GVC_HANDLES_SHORT) continue;
         cut_choice choice = {segment->extremum_count + (size_t)more, attempt[i].search};
+        if (choice.search == GVC_HANDLES_SHORT) choice.search = search;
         if (i > 0 && choice.extrema > work->features.extremum_count) continue;
         result = try_cut(cutter, work, choice, segment, error);
     }
@@ -74,11 +77,11 @@ static gvc_result cut_somehow(const gvc_cutter *cutter, gvc_frame_work *work, gv
 /* A frame that is a segment by itself has nothing to be consistent with, so slighter extrema may be
  * cut to as well, such as ears and horns, if that lowers the error: on a cow from 2.1 to 0.5 %
  * Hausdorff. */
-static gvc_result cut_still(const gvc_cutter *cutter, gvc_frame_work *work, gvc_segment *segment,
-                            gvc_error *error) {
+static gvc_result cut_still(const gvc_cutter *cutter, gvc_frame_work *work, unsigned search,
+                            gvc_segment *segment, gvc_error *error) {
     static const double slighter[] = {0.14, 0.1, 0.07};
     const gvc_features *features = &work->features;
-    GVC_TRY(cut_somehow(cutter, work, segment, error));
+    GVC_TRY(cut_somehow(cutter, work, search, segment, error));
     double least = segment->trial_rms;
     size_t voted = segment->extremum_count, best = voted, tried = voted;
     for (size_t i = 0; i < sizeof slighter / sizeof *slighter; i++) {
@@ -89,17 +92,15 @@ static gvc_result cut_still(const gvc_cutter *cutter, gvc_frame_work *work, gvc_
         }
         if (extrema == tried) continue;
         tried = extrema;
-        gvc_result result =
-            try_cut(cutter, work, (cut_choice){extrema, GVC_HANDLES_SHORT}, segment, error);
+        gvc_result result = try_cut(cutter, work, (cut_choice){extrema, search}, segment, error);
         if (result != GVC_OK && result != GVC_ERROR_MESH) return result;
         if (result != GVC_OK || segment->trial_rms > WORTH_A_TIP * least) continue;
         least = segment->trial_rms;
         best = extrema;
     }
     if (tried == best) return GVC_OK;
-    return best == voted
-               ? cut_somehow(cutter, work, segment, error)
-               : try_cut(cutter, work, (cut_choice){best, GVC_HANDLES_SHORT}, segment, error);
+    return best == voted ? cut_somehow(cutter, work, search, segment, error)
+                         : try_cut(cutter, work, (cut_choice){best, search}, segment, error);
 }
 
 /* Cuts the first frame of a segment as the frame before, but for its handles. `*done` is false if
@@ -122,8 +123,9 @@ static gvc_result cut_again(const gvc_cutter *cutter, gvc_frame_work *work, gvc_
 
 /* A segment may do better with another cut than the one it has, such as that of the frame before.
  */
-static gvc_result try_instead(const gvc_cutter *cutter, gvc_frame_work *work, cut_choice choice,
-                              gvc_segment *segment, gvc_error *error) {
+static gvc_result try_instead(const gvc_cutter *cutter, gvc_frame_work *work, unsigned search,
+                              double worth, gvc_segment *segment, gvc_error *error) {
+    const cut_choice choice = {segment->extremum_count, search};
     gvc_halfedges halfedges = work->halfedges;
     gvc_cut_graph graph = work->graph;
     gvc_segment other = *segment;
@@ -136,7 +138,7 @@ static gvc_result try_instead(const gvc_cutter *cutter, gvc_frame_work *work, cu
     other.weld = (gvc_weld){0};
     gvc_tracker_set_aside(cutter->tracker);
     gvc_result result = try_cut(cutter, work, choice, &other, &trouble);
-    bool better = result == GVC_OK && other.trial_rms < WORTH_A_NEW_CUT * segment->trial_rms;
+    bool better = result == GVC_OK && other.trial_rms < worth * segment->trial_rms;
     if (better) {
         gvc_segment worse = *segment;
         *segment = other;
@@ -160,18 +162,19 @@ gvc_result gvc_cut_begin(const gvc_cutter *cutter, uint64_t number, gvc_frame_wo
                          gvc_segment *segment, gvc_error *error) {
     GVC_TRY(gvc_segment_begin(cutter->source, cutter->options, cutter->facts, number, work->number,
                               segment, error));
-    bool alone = segment->end_frame == segment->first_frame + 1;
+    bool alone = segment->end_frame == segment->first_frame + 1, done = false;
     /* the first frame of a capture is, with luck, resumed from */
     bool still = alone && (work->number > 0 || cutter->source->frame_count == 1);
-    bool done = false;
+    bool handles = cutter->facts[work->number].genus > 0;
+    unsigned search = alone && handles ? GVC_HANDLES_GRAPH : GVC_HANDLES_SHORT;
     gvc_result result = cut_again(cutter, work, segment, &done, error);
-    const cut_choice own = {segment->extremum_count, GVC_HANDLES_SHORT},
-                     single = {segment->extremum_count, GVC_HANDLES_GRAPH};
-    if (result == GVC_OK && done) result = try_instead(cutter, work, own, segment, error);
+    if (result == GVC_OK && done)
+        result = try_instead(cutter, work, GVC_HANDLES_SHORT, WORTH_A_NEW_CUT, segment, error);
     if (result == GVC_OK && !done)
-        result = still ? cut_still(cutter, work, segment, error)
-                       : cut_somehow(cutter, work, segment, error);
-    if (result == GVC_OK && alone && cutter->facts[work->number].genus > 0)
-        result = try_instead(cutter, work, single, segment, error);
+        result = still ? cut_still(cutter, work, search, segment, error)
+                       : cut_somehow(cutter, work, search, segment, error);
+    if (result == GVC_OK && handles && (done || !alone))
+        result = try_instead(cutter, work, GVC_HANDLES_GRAPH, alone ? 1 : WORTH_A_SINGLE_CUT,
+                             segment, error);
     return gvc_at_frame(error, result, (int64_t)work->number);
 }
