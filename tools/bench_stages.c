@@ -101,7 +101,7 @@ static gvc_result make_layout(bench *b, const gvc_frame_work *work, const gvc_di
 
 /* From the cut to the image. */
 static gvc_result make_image(bench *b, const gvc_frame_work *work, gvc_error *error) {
-    const gvc_parameterize_options options = {.stretch_exponent = 1.1, .curvature_exponent = 0.25};
+    const gvc_parameterize_options options = {.stretch_exponent = 1.0, .curvature_exponent = 0.25};
     gvc_disk disk = {0};
     double *uv = NULL, clock = compare_thread_seconds();
     double *image = gvc_alloc(IMAGE_SIZE * IMAGE_SIZE, 3 * sizeof *image);

@@ -23,6 +23,7 @@
 #define LEAST_WEIGHT 1e-4
 #define MOST_REPAIRS 8
 #define STEEPEST 4.0 /* ratio of the stretch of neighbours; 2 is seen on slender limbs */
+#define MOST_LIMIT_PASSES 50
 
 typedef struct solver {
     const gvc_disk *disk;
@@ -324,15 +325,21 @@ static void vertex_stretch(const solver *s, const double *uv, double *area, doub
     for (size_t v = 0; v < n; v++) {
         double squared = area[v] > 0 ? sigma[v] / area[v] * scale : 1;
         sigma[v] = fmin(fmax(sqrt(squared), 1e-6), 1e30);
-        area[v] = INFINITY;
     }
-    /* A face that has collapsed by chance must not silence its corners. */
-    for (uint32_t h = 0; h < 3 * t->face_count; h++) {
-        uint32_t a = t->vertex[h], b = t->vertex[gvc_next(h)];
-        area[a] = fmin(area[a], sigma[b]);
-        area[b] = fmin(area[b], sigma[a]);
+}
+
+/** Faces that have collapsed by chance must not silence their corners: no vertex is taken to be
+ * stretched much more than a neighbour. */
+static void limit_stretch(const gvc_intrinsic *t, double *sigma) {
+    bool changed = true;
+    for (int i = 0; i < MOST_LIMIT_PASSES && changed; i++) {
+        changed = false;
+        for (uint32_t h = 0; h < 3 * t->face_count; h++) {
+            double *a = &sigma[t->vertex[h]], *b = &sigma[t->vertex[gvc_next(h)]];
+            if (*a > STEEPEST * *b) *a = STEEPEST * *b, changed = true;
+            if (*b > STEEPEST * *a) *b = STEEPEST * *a, changed = true;
+        }
     }
-    for (size_t v = 0; v < n; v++) sigma[v] = fmin(sigma[v], STEEPEST * area[v]);
 }
 
 /* -------------------------------------------------------------------------------------- repair */
@@ -399,6 +406,7 @@ static gvc_result attempt(solver *s, const gvc_parameterize_options *options,
     GVC_TRY(solve_unfolded(s, error));
     memcpy(harmonic, s->uv, 2 * n * sizeof *harmonic);
     vertex_stretch(s, harmonic, s->scale, sigma);
+    limit_stretch(&s->delaunay, sigma);
     if (bends) GVC_TRY(gvc_curvature(s->disk, curvature, error));
 
     for (report->fallback = ASKED_FOR;; report->fallback++) {

@@ -7,7 +7,7 @@
 #include "chart/open.h"
 
 typedef struct gvc_parameterize_options {
-    double stretch_exponent;   /**< eta; 1.1 */
+    double stretch_exponent;   /**< eta; 1.0 */
     double curvature_exponent; /**< kp; 0.5; 0: area only */
 } gvc_parameterize_options;
 
