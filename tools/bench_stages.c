@@ -24,17 +24,30 @@
 #define MADE_FRAMES 4
 #define EXTREMA 5
 
-enum { READ, HALFEDGES, INTEGRAL, EXTREMA_OF_MU, TRACK, LAYOUT, PARAMETERIZE, SAMPLE, FIT, STAGES };
+enum {
+    READ,
+    HALFEDGES,
+    INTEGRAL,
+    EXTREMA_OF_MU,
+    REGISTER,
+    TRACK,
+    LAYOUT,
+    PARAMETERIZE,
+    SAMPLE,
+    FIT,
+    STAGES
+};
 
 static const char *const stage_name[STAGES] = {
-    "read and check",   "halfedges",    "geodesic integral", "extrema",      "track the cut",
-    "open and lay out", "parameterize", "point samples",     "least squares"};
+    "read and check", "halfedges",        "geodesic integral", "extrema",       "registration",
+    "track the cut",  "open and lay out", "parameterize",      "point samples", "least squares"};
 
 /* CPU seconds of one capture, summed over its frames. */
 typedef struct bench {
     double seconds[STAGES];
     size_t frames, vertices, refined_vertices;
     gvc_tracker *tracker;
+    gvc_mesh *before; /* the frame before */
     gvc_side_table sides;
     gvc_weld weld;
 } bench;
@@ -48,6 +61,7 @@ static double lap(double *clock) {
 
 static void bench_free(bench *b) {
     gvc_tracker_destroy(&b->tracker);
+    gvc_mesh_destroy(&b->before);
     gvc_side_table_free(&b->sides);
     gvc_weld_free(&b->weld);
 }
@@ -134,16 +148,21 @@ static gvc_result measure_frame(bench *b, const gvc_source *source, uint64_t num
     b->seconds[READ] += lap(&clock);
     GVC_CHECK(analyse(b, &work, error));
     lap(&clock);
+    if (b->before) GVC_CHECK(gvc_frame_follow(&work, b->before, error));
+    b->seconds[REGISTER] += lap(&clock);
     if (b->frames == 0)
         GVC_CHECK(gvc_tracker_start(b->tracker, &work.features, EXTREMA, &work.halfedges,
                                     &work.graph, error));
     else
-        GVC_CHECK(gvc_tracker_next(b->tracker, &work.features, &work.halfedges, &work.graph, &kept,
-                                   error));
+        GVC_CHECK(gvc_tracker_next(b->tracker, &work.features, work.warp, &work.halfedges,
+                                   &work.graph, &kept, error));
     b->seconds[TRACK] += lap(&clock);
     if (!kept) GVC_CHECK(gvc_fail(error, GVC_ERROR_MESH, "the cut of the frame before is lost"));
     GVC_CHECK(make_image(b, &work, error));
     b->frames++;
+    gvc_mesh_destroy(&b->before);
+    b->before = work.mesh;
+    work.mesh = NULL;
 cleanup:
     gvc_frame_free(&work);
     return gvc_at_frame(error, result, (int64_t)number);
