@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/** @file parameterize.h  Interior of the parameterization: mean value coordinates (Floater 2003),
+/** @file parameterize.h  Interior of the parameterization: harmonic map (Pinkall & Polthier 1993),
  * one stretch-reducing step (Yoshizawa et al. 2004), curvature weight. */
 #ifndef GVC_CHART_PARAMETERIZE_H
 #define GVC_CHART_PARAMETERIZE_H
@@ -7,7 +7,7 @@
 #include "chart/open.h"
 
 typedef struct gvc_parameterize_options {
-    double stretch_exponent;   /**< eta; 1.1 */
+    double stretch_exponent;   /**< eta; 1.0 */
     double curvature_exponent; /**< kp; 0.5; 0: area only */
 } gvc_parameterize_options;
 
@@ -15,7 +15,7 @@ typedef struct gvc_parameterize_report {
     double stretch; /**< L2 stretch, area-normalised: 1 is an isometry */
     size_t flipped; /**< triangles of non-positive area in the result; 0 on success */
     unsigned
-        fallback; /**< 0: asked-for map; 1: no curvature; 2: mean value only; 3: uniform weights */
+        fallback; /**< 0: asked-for map; 1: no curvature; 2: harmonic only; 3: uniform weights */
 } gvc_parameterize_report;
 
 /** Border vertices of `disk` have their place in `uv` (pixels, 0 .. size-1, from gvc_layout_place);

@@ -7,10 +7,26 @@
 #include "chart/layout.h"
 #include "chart/sample.h"
 #include "encode/scan.h"
+#include "mesh/refine.h"
 
+#include <math.h>
 #include <stdlib.h>
 
-#define FIT_REGULARIZATION 1e-3
+/* Edges of a frame are split until none is longer, in parts of the root of the surface's area; a
+ * surface of equilateral triangles of this size has 2,000 vertices. */
+#define LONGEST_EDGE 0.024
+/* And no more vertices are added than this, for meshes that are all needles. */
+#define MOST_ADDED 20000
+
+/* Halfedges of the mesh with its long edges split, so that coarse meshes and fine ones offer as
+ * many places to the root, to nodes and paths, to integrals and to the chart (docs/adr/0014). */
+static gvc_result build_halfedges(const gvc_mesh *mesh, gvc_halfedges *halfedges,
+                                  gvc_error *error) {
+    GVC_TRY(gvc_halfedges_build(mesh, 0, halfedges, error));
+    double longest = LONGEST_EDGE * sqrt(gvc_mesh_area(mesh));
+    size_t most = mesh->vertex_count + MOST_ADDED;
+    return longest > 0 ? gvc_refine(halfedges, longest, most, error) : GVC_OK;
+}
 
 gvc_result gvc_frame_analyse(gvc_frame_work *work, const gvc_source *source, bool weld,
                              gvc_error *error) {
@@ -19,7 +35,7 @@ gvc_result gvc_frame_analyse(gvc_frame_work *work, const gvc_source *source, boo
     gvc_result result = gvc_load_frame(source, work->number, weld, &work->mesh, NULL, error);
     if (result == GVC_OK) {
         work->diagonal = gvc_mesh_diagonal(work->mesh);
-        result = gvc_halfedges_build(work->mesh, 0, &work->halfedges, error);
+        result = build_halfedges(work->mesh, &work->halfedges, error);
     }
     if (result == GVC_OK) {
         result = gvc_features_find(&work->halfedges, &options, &work->features, error);
@@ -29,7 +45,7 @@ gvc_result gvc_frame_analyse(gvc_frame_work *work, const gvc_source *source, boo
 
 gvc_result gvc_frame_follow(gvc_frame_work *work, const gvc_mesh *before, gvc_error *error) {
     gvc_halfedges from = {0};
-    gvc_result result = gvc_halfedges_build(before, 0, &from, error);
+    gvc_result result = build_halfedges(before, &from, error);
     if (result == GVC_OK) result = gvc_warp_create(&from, &work->halfedges, &work->warp, error);
     gvc_halfedges_free(&from);
     return gvc_at_frame(error, result, (int64_t)work->number);
@@ -46,7 +62,7 @@ void gvc_frame_free(gvc_frame_work *work) {
 gvc_result gvc_frame_uncut(gvc_frame_work *work, gvc_error *error) {
     gvc_cut_graph_free(&work->graph);
     gvc_halfedges_free(&work->halfedges);
-    return gvc_halfedges_build(work->mesh, 0, &work->halfedges, error);
+    return build_halfedges(work->mesh, &work->halfedges, error);
 }
 
 /* --------------------------------------------------------------------------------------- image */
@@ -91,7 +107,7 @@ gvc_result gvc_chart_fit(const gvc_frame_work *work, const gvc_chart *chart, con
                          const gvc_image_options *options, double *image, gvc_error *error) {
     if (!options->fit) return GVC_OK;
     gvc_result result =
-        gvc_sample_fit(&chart->disk, chart->uv, weld, FIT_REGULARIZATION, image, error);
+        gvc_sample_fit(&chart->disk, chart->uv, weld, GVC_FIT_REGULARIZATION, image, error);
     return gvc_at_frame(error, result, (int64_t)work->number);
 }
 

@@ -34,6 +34,9 @@ typedef struct gvc_image_options {
     double align; /**< how far a chart follows that of the frame before; 0: not at all */
 } gvc_image_options;
 
+/** Pull of the least squares fit towards the point samples. */
+#define GVC_FIT_REGULARIZATION 1e-3
+
 /** A frame's surface opened and flattened. Zero-initialise; free with gvc_chart_free. */
 typedef struct gvc_chart {
     gvc_disk disk;

@@ -102,7 +102,7 @@ gvc_result gvc_segment_begin(const gvc_source *source, const gvc_encode_options 
            facts[segment->end_frame].genus == facts[first].genus) {
         segment->end_frame++;
     }
-    segment->image_options.parameterize.stretch_exponent = 1.1;
+    segment->image_options.parameterize.stretch_exponent = 1.0;
     segment->image_options.parameterize.curvature_exponent = options->curvature_weight;
     segment->image_options.fit = true;
     segment->image_options.align = 0.5;
