@@ -151,8 +151,8 @@ static gvc_result measure_frame(bench *b, const gvc_source *source, uint64_t num
     if (b->before) GVC_CHECK(gvc_frame_follow(&work, b->before, error));
     b->seconds[REGISTER] += lap(&clock);
     if (b->frames == 0)
-        GVC_CHECK(gvc_tracker_start(b->tracker, &work.features, EXTREMA, &work.halfedges,
-                                    &work.graph, error));
+        GVC_CHECK(gvc_tracker_start(b->tracker, &work.features, EXTREMA, GVC_HANDLES_SHORT,
+                                    &work.halfedges, &work.graph, error));
     else
         GVC_CHECK(gvc_tracker_next(b->tracker, &work.features, work.warp, &work.halfedges,
                                    &work.graph, &kept, error));

@@ -21,9 +21,6 @@
 
 #define BATCH 16 /* frames made, or measured, in parallel */
 #define BLOCK 16 /* pictures are padded to whole macroblocks */
-/* As for frames of this method (encode/segment.c). */
-#define CUBE_MARGIN 0.01
-#define STRETCH_EXPONENT 1.1
 
 typedef struct sequence {
     const gvc_source *source;
@@ -150,12 +147,8 @@ static gvc_result begin(sequence *s, const paper_cube *cube, gvc_error *error) {
     uint64_t frames = s->source->frame_count;
     size_t capacity = frames < o->gop ? (size_t)frames : o->gop;
     gvc_encode_options_init(&s->encode);
-    s->cube.step =
-        cube->side * (1 + 2 * CUBE_MARGIN) / (((1 << GVC_LUMA_BITS) - 1) << GVC_CODE_SHIFT);
-    for (int k = 0; k < 3; k++) s->cube.origin[k] = cube->origin[k] - CUBE_MARGIN * cube->side;
-    s->cube.image_options.parameterize.stretch_exponent = STRETCH_EXPONENT;
-    s->cube.image_options.parameterize.curvature_exponent = s->encode.curvature_weight;
-    s->cube.image_options.fit = true;
+    gvc_segment_set_cube(&s->cube, cube->origin, cube->side);
+    gvc_segment_set_image_options(&s->cube, &s->encode);
     s->frames = gvc_alloc((size_t)frames, sizeof *s->frames);
     s->shape = gvc_alloc(capacity, sizeof *s->shape);
     if (!s->frames || !s->shape) return gvc_fail_memory(error);

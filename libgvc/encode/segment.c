@@ -35,9 +35,13 @@ static void set_cube(gvc_segment *segment, const gvc_scan_frame *facts) {
         }
     }
     for (int k = 0; k < 3; k++) extent = fmax(extent, high[k] - low[k]);
-    double side = extent * (1 + 2 * CUBE_MARGIN);
-    segment->step = side / (LUMA_MAX << GVC_CODE_SHIFT);
-    for (int k = 0; k < 3; k++) segment->origin[k] = (low[k] + high[k] - side) / 2;
+    for (int k = 0; k < 3; k++) low[k] = (low[k] + high[k] - extent) / 2;
+    gvc_segment_set_cube(segment, low, extent);
+}
+
+void gvc_segment_set_cube(gvc_segment *segment, const double low[3], double side) {
+    segment->step = side * (1 + 2 * CUBE_MARGIN) / (LUMA_MAX << GVC_CODE_SHIFT);
+    for (int k = 0; k < 3; k++) segment->origin[k] = low[k] - CUBE_MARGIN * side;
 }
 
 /* ---------------------------------------------------------------------------------------- vote */
@@ -91,6 +95,13 @@ static gvc_result vote(gvc_segment *segment, const gvc_source *source,
     return GVC_OK;
 }
 
+void gvc_segment_set_image_options(gvc_segment *segment, const gvc_encode_options *options) {
+    segment->image_options = (gvc_image_options){
+        .parameterize = {.stretch_exponent = 1.0, .curvature_exponent = options->curvature_weight},
+        .fit = true,
+        .align = 0.5};
+}
+
 gvc_result gvc_segment_begin(const gvc_source *source, const gvc_encode_options *options,
                              const gvc_scan_frame *facts, uint64_t number, uint64_t first,
                              gvc_segment *segment, gvc_error *error) {
@@ -102,10 +113,7 @@ gvc_result gvc_segment_begin(const gvc_source *source, const gvc_encode_options 
            facts[segment->end_frame].genus == facts[first].genus) {
         segment->end_frame++;
     }
-    segment->image_options.parameterize.stretch_exponent = 1.0;
-    segment->image_options.parameterize.curvature_exponent = options->curvature_weight;
-    segment->image_options.fit = true;
-    segment->image_options.align = 0.5;
+    gvc_segment_set_image_options(segment, options);
     set_cube(segment, facts);
     if (first < vote_end) {
         segment->vote_end = vote_end;

@@ -24,12 +24,18 @@ typedef struct gvc_segment {
 } gvc_segment;
 
 /** Everything but the layout: cube from `facts` over the run of equal genus that begins at `first`,
- * number of extrema by a vote of up to seven frames spread over it (or over more, if it is short), or
- * as in the segment before (what `segment` holds on entry, zero for the first one) where its vote
- * still holds. What `segment` holds is freed. */
+ * number of extrema by a vote of up to seven frames spread over it (or over more, if it is short),
+ * or as in the segment before (what `segment` holds on entry, zero for the first one) where its
+ * vote still holds. What `segment` holds is freed. */
 gvc_result gvc_segment_begin(const gvc_source *source, const gvc_encode_options *options,
                              const gvc_scan_frame *facts, uint64_t number, uint64_t first,
                              gvc_segment *segment, gvc_error *error);
+
+/** Parts of it, for frames that are no segment: the cube of codes round a cube with this lowest
+ * corner and side, with a margin for samples that overshoot, */
+void gvc_segment_set_cube(gvc_segment *segment, const double low[3], double side);
+/** and how images are made. */
+void gvc_segment_set_image_options(gvc_segment *segment, const gvc_encode_options *options);
 
 /** Border layout from the segment's first frame, whose graph has been found: steps in proportion to
  * edge lengths; the place of the square's corners on the loop is the one of least RMS error in
