@@ -2,8 +2,8 @@
 /** @file curvature.c  How strongly the surface bends, for spending more samples where it does. */
 #include "chart/curvature.h"
 
-#include "base/memory.h"
 #include "base/conjugate_gradient.h"
+#include "base/memory.h"
 #include "mesh/vector.h"
 
 #include <math.h>

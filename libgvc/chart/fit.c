@@ -9,8 +9,8 @@
  */
 #include "chart/sample.h"
 
-#include "base/memory.h"
 #include "base/conjugate_gradient.h"
+#include "base/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
