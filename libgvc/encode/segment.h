@@ -15,7 +15,8 @@ typedef struct gvc_segment {
     double origin[3], step;          /**< position = origin + step * 16-bit code */
     uint64_t vote_end;               /**< end of the frames whose vote holds */
     size_t extremum_count;
-    double trial_rms;    /**< least sampling error met in the trials of the layout */
+    double trial_rms;    /**< sampling error of the layout chosen, at the size of its trials (or at
+                              that of the images: encode/cut.c) */
     gvc_border_run *run; /**< cyclic sequence of border runs of its first frame */
     size_t run_count;
     gvc_side_table sides;
@@ -24,9 +25,9 @@ typedef struct gvc_segment {
 } gvc_segment;
 
 /** Everything but the layout: cube from `facts` over the run of equal genus that begins at `first`,
- * number of extrema by a vote of up to seven frames spread over it (or over more, if it is short), or
- * as in the segment before (what `segment` holds on entry, zero for the first one) where its vote
- * still holds. What `segment` holds is freed. */
+ * number of extrema by a vote of up to seven frames spread over it (or over more, if it is short),
+ * or as in the segment before (what `segment` holds on entry, zero for the first one) where its
+ * vote still holds. What `segment` holds is freed. */
 gvc_result gvc_segment_begin(const gvc_source *source, const gvc_encode_options *options,
                              const gvc_scan_frame *facts, uint64_t number, uint64_t first,
                              gvc_segment *segment, gvc_error *error);
