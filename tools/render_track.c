@@ -55,7 +55,10 @@ static gvc_result follow_batch(follower *f, uint64_t first, size_t count, gvc_er
 static gvc_result follow_all(follower *f, gvc_error *error) {
     uint64_t first = f->frame[0], end = f->frame[f->count - 1] + 1;
     GVC_TRY(gvc_scan(f->source, &f->options, f->facts, error));
-    while (first > 0 && f->facts[first - 1].genus == f->facts[first].genus) first--;
+    /* A cut is resumed across changes of genus: as the encoder, this begins at the first frame. */
+    bool handles = false;
+    for (uint64_t i = 0; i < end; i++) handles = handles || f->facts[i].genus > 0;
+    while (first > 0 && (handles || f->facts[first - 1].genus == f->facts[first].genus)) first--;
     for (uint64_t frame = first; frame < end; frame += GVC_BATCH) {
         size_t count = end - frame < GVC_BATCH ? (size_t)(end - frame) : GVC_BATCH;
         if (!f->hooks->progress(f->hooks->user, GVC_STAGE_ENCODE, frame - first, end - first)) {

@@ -15,7 +15,8 @@ typedef struct gvc_segment {
     double origin[3], step;          /**< position = origin + step * 16-bit code */
     uint64_t vote_end;               /**< end of the frames whose vote holds */
     size_t extremum_count;
-    double trial_rms;    /**< least sampling error met in the trials of the layout */
+    double trial_rms;    /**< sampling error of the layout chosen, at the size of its trials (or at
+                              that of the images: encode/cut.c) */
     gvc_border_run *run; /**< cyclic sequence of border runs of its first frame */
     size_t run_count;
     gvc_side_table sides;
