@@ -174,8 +174,13 @@ gvc_result gvc_cut_begin(const gvc_cutter *cutter, uint64_t number, gvc_frame_wo
     if (result == GVC_OK && !done)
         result = still ? cut_still(cutter, work, search, segment, error)
                        : cut_somehow(cutter, work, search, segment, error);
+    bool poor =
+        cutter->size > 0 && segment->trial_rms > gvc_rms_asked(cutter->options, work->diagonal);
     if (result == GVC_OK && handles && (done || !alone))
-        result = try_instead(cutter, work, GVC_HANDLES_GRAPH, alone ? 1 : WORTH_A_SINGLE_CUT,
+        result = try_instead(cutter, work, GVC_HANDLES_GRAPH,
+                             alone  ? 1
+                             : poor ? WORTH_A_NEW_CUT
+                                    : WORTH_A_SINGLE_CUT,
                              segment, error);
     return gvc_at_frame(error, result, (int64_t)work->number);
 }
