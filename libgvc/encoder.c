@@ -62,6 +62,10 @@ static gvc_result check_options(const gvc_encode_options *o, const gvc_source *s
     if (o->frame_rate_num == 0 || o->frame_rate_den == 0) wrong = "the frame rate must be positive";
     if (!(o->persistence > 0 && o->persistence < 1)) wrong = "persistence must be between 0 and 1";
     if (!(o->prior_weight >= 0)) wrong = "the prior's weight must not be negative";
+    if (!(o->shortest_weight >= 0)) wrong = "the shortest path's weight must not be negative";
+    if (!(o->lambda >= 0 && o->lambda <= 1)) wrong = "lambda must be between 0 and 1";
+    if (!(o->interior_share >= 0 && o->interior_share <= 1))
+        wrong = "the interior's share must be between 0 and 1";
     return wrong ? gvc_fail(error, GVC_ERROR_ARGUMENT, "%s", wrong) : GVC_OK;
 }
 
@@ -393,8 +397,7 @@ static gvc_result encode_run(encoder *e, size_t first, size_t *end, gvc_error *e
 
 static gvc_result encode_batch(encoder *e, uint64_t first, size_t count, gvc_error *error) {
     size_t next = 0;
-    GVC_TRY(gvc_batch_analyse(&e->batch, e->source, e->options.weld, e->options.threads, first,
-                              count, error));
+    GVC_TRY(gvc_batch_analyse(&e->batch, e->source, &e->options, first, count, error));
     while (next < e->batch.count) {
         /* nothing new is done, but this is where a long group can be cancelled */
         GVC_TRY(report_progress(e, e->report.frame_count, error));
@@ -423,12 +426,9 @@ gvc_result gvc_encode_tapped(const gvc_source *source, const gvc_sink *sink,
     if (!e) return gvc_fail_memory(error);
     *e = (encoder){
         .source = source, .sink = sink, .tap = tap, .options = *options, .crf = FIRST_CRF};
-    gvc_tracker_options tracking;
-    gvc_tracker_options_init(&tracking);
-    tracking.prior_weight = options->prior_weight;
     e->facts = gvc_alloc((size_t)source->frame_count, sizeof *e->facts);
     gvc_result result = e->facts ? GVC_OK : gvc_fail_memory(error);
-    if (result == GVC_OK) result = gvc_tracker_create(&tracking, &e->tracker, error);
+    if (result == GVC_OK) result = gvc_cut_tracker(options, &e->tracker, error);
     if (result == GVC_OK) result = encode_all(e, error);
     if (result == GVC_OK && report) {
         *report = e->report;

@@ -13,8 +13,12 @@ void gvc_encode_options_init(gvc_encode_options *options) {
                                     .frame_rate_den = 1,
                                     .weld = true,
                                     .persistence = 0.2,
+                                    .curvature_weight = 0.25,
                                     .prior_weight = 1,
-                                    .curvature_weight = 0.25};
+                                    .shortest_weight = 0.05,
+                                    .lambda = 0.95,
+                                    .interior_share = 0.8,
+                                    .registration = true};
 }
 
 void gvc_read_options_init(gvc_read_options *options) {

@@ -31,7 +31,18 @@ static const char usage[] =
     "seams)\n"
     "      --any-order       take files as given: no check of numbers\n"
     "  -j, --jobs N          threads (default: one per processor); never changes the output\n"
-    "  -q, --quiet           no progress, no summary\n";
+    "  -q, --quiet           no progress, no summary\n"
+    "\n"
+    "The method itself, for experiments (docs/ablation.md); numbers are the defaults:\n"
+    "\n"
+    "      --persistence 0.2 least persistence of an extremum to cut to, as a share of the range\n"
+    "      --curvature 0.25  exponent of the curvature metric\n"
+    "      --prior 1         weight of the path before (E_p)\n"
+    "      --shortest 0.05   weight of the shortest path (E_d)\n"
+    "      --lambda 0.95     weight of a junction's place before (Eq. 10)\n"
+    "      --interior 0.8    how far the inside of a chart goes to where the one before was\n"
+    "      --no-registration do not move along with the surface what is known of the frame "
+    "before\n";
 
 enum {
     OPT_SIZE = 256,
@@ -41,8 +52,12 @@ enum {
     OPT_NO_WELD,
     OPT_ANY_ORDER,
     OPT_PERSISTENCE,
+    OPT_CURVATURE,
     OPT_PRIOR,
-    OPT_CURVATURE
+    OPT_SHORTEST,
+    OPT_LAMBDA,
+    OPT_INTERIOR,
+    OPT_NO_REGISTRATION
 };
 
 typedef struct encode_arguments {
@@ -74,12 +89,38 @@ static void on_warning(void *user, int64_t frame, const char *message) {
     }
 }
 
+/* The option that is just a number, or NULL. */
+static double *plain_number(gvc_encode_options *o, int option) {
+    switch (option) {
+    case OPT_CRF:
+        return &o->crf;
+    case OPT_PERSISTENCE:
+        return &o->persistence;
+    case OPT_CURVATURE:
+        return &o->curvature_weight;
+    case OPT_PRIOR:
+        return &o->prior_weight;
+    case OPT_SHORTEST:
+        return &o->shortest_weight;
+    case OPT_LAMBDA:
+        return &o->lambda;
+    case OPT_INTERIOR:
+        return &o->interior_share;
+    default:
+        return NULL;
+    }
+}
+
 /* EXIT_DONE to go on, EXIT_USAGE for a bad option, -1 after --help. */
 static int set_option(encode_arguments *a, int option, const char *value) {
     gvc_encode_options *o = &a->options;
     uint64_t number;
     bool relative;
-    double bound;
+    double bound, *plain = plain_number(o, option);
+    if (plain)
+        return cli_double(value, plain)
+                   ? EXIT_DONE
+                   : cli_usage("encode", "'%s' is not a value this option takes", value);
     switch (option) {
     case 'o':
         a->output = value;
@@ -99,9 +140,6 @@ static int set_option(encode_arguments *a, int option, const char *value) {
         if (!cli_uint(value, 16, 2049, &number)) break;
         o->image_size = (uint32_t)number;
         return EXIT_DONE;
-    case OPT_CRF:
-        if (!cli_double(value, &o->crf)) break;
-        return EXIT_DONE;
     case OPT_GOP:
         if (!cli_uint(value, 1, 10000, &number)) break;
         o->gop = (uint32_t)number;
@@ -117,14 +155,8 @@ static int set_option(encode_arguments *a, int option, const char *value) {
         if (strlen(value) >= sizeof o->unit) break;
         snprintf(o->unit, sizeof o->unit, "%s", value);
         return EXIT_DONE;
-    case OPT_PERSISTENCE:
-        if (!cli_double(value, &o->persistence)) break;
-        return EXIT_DONE;
-    case OPT_PRIOR:
-        if (!cli_double(value, &o->prior_weight)) break;
-        return EXIT_DONE;
-    case OPT_CURVATURE:
-        if (!cli_double(value, &o->curvature_weight)) break;
+    case OPT_NO_REGISTRATION:
+        o->registration = false;
         return EXIT_DONE;
     case OPT_NO_WELD:
         o->weld = false;
@@ -157,6 +189,10 @@ static int parse(encode_arguments *a, int argc, char **argv) {
         {"persistence", required_argument, NULL, OPT_PERSISTENCE},
         {"prior", required_argument, NULL, OPT_PRIOR},
         {"curvature", required_argument, NULL, OPT_CURVATURE},
+        {"shortest", required_argument, NULL, OPT_SHORTEST},
+        {"lambda", required_argument, NULL, OPT_LAMBDA},
+        {"interior", required_argument, NULL, OPT_INTERIOR},
+        {"no-registration", no_argument, NULL, OPT_NO_REGISTRATION},
         {"jobs", required_argument, NULL, 'j'},
         {"help", no_argument, NULL, 'h'},
         {NULL, 0, NULL, 0}};

@@ -43,8 +43,7 @@ static gvc_result follow(follower *f, gvc_frame_work *work, gvc_error *error) {
 }
 
 static gvc_result follow_batch(follower *f, uint64_t first, size_t count, gvc_error *error) {
-    GVC_TRY(gvc_batch_analyse(&f->batch, f->source, f->options.weld, f->options.threads, first,
-                              count, error));
+    GVC_TRY(gvc_batch_analyse(&f->batch, f->source, &f->options, first, count, error));
     for (size_t i = 0; i < count; i++) {
         gvc_result result = follow(f, &f->batch.work[i], error);
         if (result != GVC_OK) return gvc_at_frame(error, result, (int64_t)(first + i));
@@ -81,12 +80,9 @@ gvc_result render_track(const gvc_source *source, bool weld, unsigned threads,
     f->options.threads = threads;
     f->options.progress = hooks->progress;
     f->options.user = hooks->user;
-    gvc_tracker_options tracking;
-    gvc_tracker_options_init(&tracking);
-    tracking.prior_weight = f->options.prior_weight;
     f->facts = gvc_alloc((size_t)source->frame_count, sizeof *f->facts);
     gvc_result result = f->facts ? GVC_OK : gvc_fail_memory(error);
-    if (result == GVC_OK) result = gvc_tracker_create(&tracking, &f->tracker, error);
+    if (result == GVC_OK) result = gvc_cut_tracker(&f->options, &f->tracker, error);
     if (result == GVC_OK) result = follow_all(f, error);
     gvc_batch_free(&f->batch);
     gvc_segment_free(&f->segment);

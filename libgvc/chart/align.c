@@ -19,8 +19,17 @@ static const double far_away = 0.02;
 /* Nor is a place followed that is further than this share of the square. */
 static const double greatest_shift = 0.1;
 #define SMOOTHING 10 /* rounds that let trust fall off towards what is not followed */
+/* The field is smoothed: a node weighs its neighbours so many times as much as its own measure
+ * where that is trusted fully, and is drawn this much to rest. */
+static const double stiffness = 8, rest = 0.1;
+#define SWEEPS 60
 #define INVERSIONS 12
-#define ATTEMPTS 6
+/* The vertices of faces that turn over are held back, by this factor in the first rounds and then
+ * altogether, */
+static const double hold = 0.8;
+#define GENTLE_ROUNDS 20
+/* and no vertex goes this much more of its way than a neighbour. */
+static const double greatest_step = 0.3;
 
 typedef struct field {
     const gvc_disk *disk;
@@ -30,14 +39,14 @@ typedef struct field {
     double spacing;   /* pixels between nodes */
     double *shift;    /* 2 per node */
     double *trust;    /* per node, 0 .. 1 */
-    double *scratch;  /* per node */
+    double *scratch;  /* 2 per node */
 } field;
 
 static gvc_result field_allocate(field *f, gvc_error *error) {
     size_t count = f->nodes * f->nodes;
     f->shift = gvc_alloc(count, 2 * sizeof *f->shift);
     f->trust = gvc_alloc(count, sizeof *f->trust);
-    f->scratch = gvc_alloc(count, sizeof *f->scratch);
+    f->scratch = gvc_alloc(count, 2 * sizeof *f->scratch);
     return f->shift && f->trust && f->scratch ? GVC_OK : gvc_fail_memory(error);
 }
 
@@ -95,6 +104,21 @@ static void soften_trust(field *f) {
     }
 }
 
+/* Makes the measured shifts a field whose gradient is small: where it is not, faces turn over. */
+static void smooth_shift(field *f) {
+    size_t n = f->nodes;
+    memcpy(f->scratch, f->shift, 2 * n * n * sizeof *f->scratch);
+    for (size_t i = 0; i < 2 * n * n; i++) f->shift[i] *= f->trust[i / 2];
+    for (int sweep = 0; sweep < SWEEPS; sweep++)
+        for (size_t j = 1; j + 1 < n; j++)
+            for (size_t i = 2; i + 2 < 2 * n; i++) {
+                size_t at = 2 * n * j + i;
+                double *x = f->shift + at, trust = f->trust[at / 2];
+                double around = (x[-2] + x[2] + *(x - 2 * n) + x[2 * n]) / 4;
+                *x = (trust * f->scratch[at] + stiffness * around) / (trust + stiffness + rest);
+            }
+}
+
 static gvc_result measure(field *f, const double *target, const gvc_align_options *options,
                           gvc_error *error) {
     const gvc_halfedges *m = &f->disk->mesh;
@@ -106,23 +130,22 @@ static gvc_result measure(field *f, const double *target, const gvc_align_option
             look_up(f, bvh, target, far_away * options->diagonal, j * f->nodes + i);
     gvc_bvh_destroy(&bvh);
     soften_trust(f);
-    for (size_t i = 0; i < 2 * f->nodes * f->nodes; i++)
-        f->shift[i] *= options->share * f->trust[i / 2];
+    smooth_shift(f);
+    for (size_t i = 0; i < 2 * f->nodes * f->nodes; i++) f->shift[i] *= options->share;
     return GVC_OK;
 }
 
 /* -------------------------------------------------------------------------------------- sliding */
 
-/* Pixel q is to show what was at q + shift(q), so what was at p goes to the q where that is p. */
-static void slide(const field *f, const double *damping, double *moved) {
+/* Pixel q is to show what was at q + shift(q), so what was at p goes to the q where that is p. The
+ * border stays. */
+static void slide(const field *f, double *moved) {
     for (size_t v = 0; v < f->disk->mesh.vertex_count; v++) {
         const double *p = f->uv + 2 * v;
         double q[2] = {p[0], p[1]}, d[2];
         for (int step = 0; step < INVERSIONS; step++) {
             double x = q[0] / f->spacing, y = q[1] / f->spacing;
-            double factor = interpolate(damping, f->nodes, 1, x, y);
-            for (size_t c = 0; c < 2; c++)
-                d[c] = factor * interpolate(f->shift + c, f->nodes, 2, x, y);
+            for (size_t c = 0; c < 2; c++) d[c] = interpolate(f->shift + c, f->nodes, 2, x, y);
             for (size_t c = 0; c < 2; c++) q[c] = p[c] - d[c];
         }
         memcpy(moved + 2 * v, q, sizeof q);
@@ -133,24 +156,33 @@ static void slide(const field *f, const double *damping, double *moved) {
     }
 }
 
-/* Lets the field fade where triangles have flipped; returns how many there are. */
-static size_t damp_flips(const field *f, const double *moved, double *damping) {
+static bool turned_over(const double *uv, const uint32_t *v) {
+    const double *a = uv + 2 * (size_t)v[0], *b = uv + 2 * (size_t)v[1], *c = uv + 2 * (size_t)v[2];
+    return !((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0);
+}
+
+/* Puts every vertex `part` of its way, and lowers that of the vertices of faces that have turned
+ * over; returns how many of these can be taken further back. */
+static size_t hold_back(const field *f, double factor, const double *slid, double *part,
+                        double *moved) {
     const gvc_halfedges *m = &f->disk->mesh;
-    size_t flips = 0, n = f->nodes;
+    size_t flips = 0;
+    for (size_t v = 0; v < m->vertex_count; v++)
+        for (size_t c = 2 * v; c < 2 * v + 2; c++)
+            moved[c] = f->uv[c] + part[v] * (slid[c] - f->uv[c]);
     for (size_t h = 0; h < 3 * m->face_count; h += 3) {
-        const double *a = moved + 2 * (size_t)m->vertex[h];
-        const double *b = moved + 2 * (size_t)m->vertex[h + 1];
-        const double *c = moved + 2 * (size_t)m->vertex[h + 2];
-        if ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0) continue;
-        flips++;
-        double x = fmin(fmax(a[0] / f->spacing, 0), (double)n - 1);
-        double y = fmin(fmax(a[1] / f->spacing, 0), (double)n - 1);
-        for (int dj = -2; dj <= 2; dj++)
-            for (int di = -2; di <= 2; di++) {
-                double i = round(x) + di, j = round(y) + dj;
-                if (i < 0 || j < 0 || i >= (double)n || j >= (double)n) continue;
-                damping[(size_t)j * n + (size_t)i] *= di || dj ? 0.8 : 0.5;
-            }
+        if (!turned_over(moved, m->vertex + h)) continue;
+        bool moving = false;
+        for (size_t k = 0; k < 3; k++) {
+            moving = moving || part[m->vertex[h + k]] > 0;
+            part[m->vertex[h + k]] *= factor;
+        }
+        flips += moving;
+    }
+    for (uint32_t h = 0; flips > 0 && h < 3 * m->face_count; h++) {
+        double *a = part + m->vertex[h], *b = part + m->vertex[gvc_next(h)];
+        *a = fmin(*a, *b + greatest_step);
+        *b = fmin(*b, *a + greatest_step);
     }
     return flips;
 }
@@ -158,22 +190,25 @@ static size_t damp_flips(const field *f, const double *moved, double *damping) {
 gvc_result gvc_align(const gvc_disk *disk, uint32_t size, const double *target,
                      const gvc_align_options *options, double *uv, gvc_error *error) {
     field f = {.disk = disk, .uv = uv, .size = size, .nodes = size < GRID ? size : GRID};
-    size_t vertices = disk->mesh.vertex_count, count = f.nodes * f.nodes;
+    size_t vertices = disk->mesh.vertex_count, bytes = 2 * vertices * sizeof *uv;
     f.spacing = (size - 1.0) / ((double)f.nodes - 1);
+    double *slid = gvc_alloc(2 * vertices, sizeof *slid);
     double *moved = gvc_alloc(2 * vertices, sizeof *moved);
-    double *damping = gvc_alloc(count, sizeof *damping);
-    gvc_result result = moved && damping ? GVC_OK : gvc_fail_memory(error);
+    double *part = gvc_alloc(vertices, sizeof *part);
+    gvc_result result = slid && moved && part ? GVC_OK : gvc_fail_memory(error);
     if (result == GVC_OK) result = field_allocate(&f, error);
     if (result == GVC_OK) result = measure(&f, target, options, error);
-    bool good = false;
-    for (size_t i = 0; result == GVC_OK && i < count; i++) damping[i] = 1;
-    for (int attempt = 0; result == GVC_OK && !good && attempt < ATTEMPTS; attempt++) {
-        slide(&f, damping, moved);
-        good = damp_flips(&f, moved, damping) == 0;
+    if (result == GVC_OK) {
+        slide(&f, slid);
+        for (size_t v = 0; v < vertices; v++) part[v] = 1;
+        int gentle = GENTLE_ROUNDS;
+        /* Ends, as every round after the gentle ones leaves fewer vertices that move at all. */
+        while (hold_back(&f, gentle > 0 ? hold : 0, slid, part, moved) > 0) gentle--;
+        memcpy(uv, moved, bytes);
     }
-    if (good) memcpy(uv, moved, 2 * vertices * sizeof *uv);
     field_free(&f);
+    free(slid);
     free(moved);
-    free(damping);
+    free(part);
     return result;
 }

@@ -29,15 +29,17 @@ static void free_frames(gvc_batch *batch) {
     batch->count = 0;
 }
 
-gvc_result gvc_batch_analyse(gvc_batch *batch, const gvc_source *source, bool weld,
-                             unsigned threads, uint64_t first, size_t count, gvc_error *error) {
-    analysis a = {batch, source, weld};
+gvc_result gvc_batch_analyse(gvc_batch *batch, const gvc_source *source,
+                             const gvc_encode_options *options, uint64_t first, size_t count,
+                             gvc_error *error) {
+    analysis a = {batch, source, options->weld};
     free_frames(batch);
     batch->first = first;
     batch->count = count;
     for (size_t i = 0; i < count; i++) batch->work[i] = (gvc_frame_work){.number = first + i};
-    GVC_TRY(gvc_parallel_for(threads, count, analyse_one, &a, error));
-    GVC_TRY(gvc_parallel_for(threads, count, follow_one, &a, error));
+    GVC_TRY(gvc_parallel_for(options->threads, count, analyse_one, &a, error));
+    if (options->registration)
+        GVC_TRY(gvc_parallel_for(options->threads, count, follow_one, &a, error));
     const gvc_mesh *last = batch->work[count - 1].mesh;
     gvc_mesh_destroy(&batch->before);
     return gvc_mesh_create(last->position, last->vertex_count, last->face, last->face_count,

@@ -16,10 +16,11 @@ typedef struct gvc_batch {
 } gvc_batch;
 
 /** Goes on to frames `first` ... `first` + `count` - 1, at most GVC_BATCH, which follow those of
- * the batch before if there was one: finds the features of each and the warp from the frame before.
- */
-gvc_result gvc_batch_analyse(gvc_batch *batch, const gvc_source *source, bool weld,
-                             unsigned threads, uint64_t first, size_t count, gvc_error *error);
+ * the batch before if there was one: finds the features of each and, unless `options` say
+ * otherwise, the warp from the frame before. */
+gvc_result gvc_batch_analyse(gvc_batch *batch, const gvc_source *source,
+                             const gvc_encode_options *options, uint64_t first, size_t count,
+                             gvc_error *error);
 void gvc_batch_free(gvc_batch *batch);
 
 #endif

@@ -13,6 +13,14 @@
 /* and one that the frames to come cannot have. */
 #define WORTH_A_SINGLE_CUT 0.5
 
+gvc_result gvc_cut_tracker(const gvc_encode_options *options, gvc_tracker **tracker,
+                           gvc_error *error) {
+    const gvc_tracker_options tracking = {.prior_weight = options->prior_weight,
+                                          .shortest_weight = options->shortest_weight,
+                                          .lambda = options->lambda};
+    return gvc_tracker_create(&tracking, tracker, error);
+}
+
 gvc_result gvc_cut_follow(const gvc_cutter *cutter, const gvc_segment *segment,
                           gvc_frame_work *work, bool *continues, gvc_error *error) {
     *continues = false;

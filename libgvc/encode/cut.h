@@ -15,6 +15,10 @@ typedef struct gvc_cutter {
     uint32_t size; /**< of the images, which the cut must fit; 0 if not settled yet */
 } gvc_cutter;
 
+/** The tracker for a capture. */
+gvc_result gvc_cut_tracker(const gvc_encode_options *options, gvc_tracker **tracker,
+                           gvc_error *error);
+
 /** Finds the cut of the next frame, in order. `*continues` is false, and nothing is kept, if a new
  * segment must start with it; so it is for a segment that is all zero. */
 gvc_result gvc_cut_follow(const gvc_cutter *cutter, const gvc_segment *segment,

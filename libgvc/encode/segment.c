@@ -99,7 +99,7 @@ void gvc_segment_set_image_options(gvc_segment *segment, const gvc_encode_option
     segment->image_options = (gvc_image_options){
         .parameterize = {.stretch_exponent = 1.0, .curvature_exponent = options->curvature_weight},
         .fit = true,
-        .align = 0.5};
+        .align = options->interior_share};
 }
 
 gvc_result gvc_segment_begin(const gvc_source *source, const gvc_encode_options *options,

@@ -184,9 +184,15 @@ typedef struct gvc_encode_options {
     uint32_t threads;                        /**< 0: one per processor. Never changes the output */
     char unit[16];                           /**< "m", "mm", or empty for unknown; recorded only */
     bool weld; /**< weld exactly equal positions where that gives a manifold; default true */
-    double persistence;  /**< least persistence of an extremum, of the range of mu; default 0.2 */
-    double prior_weight; /**< strength of the temporal prior of the cut (Eq. 8); default 1 */
+    double persistence; /**< least persistence of an extremum, of the range of mu; default 0.2 */
     double curvature_weight; /**< exponent of the curvature metric; default 0.25; 0: none */
+    /* How the cut and the chart follow the surface; only experiments need other values. */
+    double prior_weight;    /**< of E_p (Eq. 8), >= 0; default 1 */
+    double shortest_weight; /**< of E_d (Eq. 7), >= 0; default 0.05 */
+    double lambda;          /**< Eq. 10, 0..1: share of a junction's earlier place; default 0.95 */
+    double interior_share;  /**< how far a chart's interior goes to where the one before it was,
+                                 0..1; default 0.8 */
+    bool registration;      /**< earlier places are moved along with the surface; default true */
     /** Called from the calling thread; return false to cancel. May be NULL. */
     bool (*progress)(void *user, gvc_stage stage, uint64_t done, uint64_t total);
     /** Warnings, one line without newline; frame or GVC_NO_FRAME. May be NULL. */
