@@ -25,6 +25,9 @@ static const char usage[] =
     "with\n"
     "                        commas (default: some spread over the capture)\n"
     "      --no-graph        surfaces only; these may be open or in pieces\n"
+    "      --ambiguity       colour by how much of the surface lies at the same distances from "
+    "all\n"
+    "                        tips as a place, to within 10 % of the greatest distance in sum\n"
     "      --against         the arguments after the file are the frames it was made from\n"
     "      --size N          pixels of a panel's longer side (default 480)\n"
     "      --view A,E        azimuth and elevation of the eye in degrees (default 25,8)\n"
@@ -37,6 +40,7 @@ static const char usage[] =
 enum {
     OPT_FRAMES = 256,
     OPT_NO_GRAPH,
+    OPT_AMBIGUITY,
     OPT_AGAINST,
     OPT_SIZE,
     OPT_VIEW,
@@ -97,6 +101,8 @@ static bool set_switch(render_job *job, int option) {
         return job->quiet = true;
     case OPT_NO_GRAPH:
         return job->no_graph = true;
+    case OPT_AMBIGUITY:
+        return job->ambiguity = true;
     case OPT_AGAINST:
         return job->against = true;
     case OPT_ANY_ORDER:
@@ -118,6 +124,7 @@ static int parse(render_job *job, int argc, char **argv) {
                                             {"force", no_argument, NULL, 'f'},
                                             {"frames", required_argument, NULL, OPT_FRAMES},
                                             {"no-graph", no_argument, NULL, OPT_NO_GRAPH},
+                                            {"ambiguity", no_argument, NULL, OPT_AMBIGUITY},
                                             {"against", no_argument, NULL, OPT_AGAINST},
                                             {"size", required_argument, NULL, OPT_SIZE},
                                             {"view", required_argument, NULL, OPT_VIEW},
@@ -142,6 +149,9 @@ static int parse(render_job *job, int argc, char **argv) {
     job->input = argv + optind;
     job->input_count = argc - optind;
     if (job->input_count == 0) return cli_usage("render", "name frames or one .gvc file");
+    if (job->ambiguity && (job->against || job->no_graph)) {
+        return cli_usage("render", "--ambiguity is of the tips of cut graphs, and of frames alone");
+    }
     if (job->against && job->input_count < 2) {
         return cli_usage("render", "name one .gvc file and, after it, the frames");
     }

@@ -138,14 +138,10 @@ static gvc_result add_row(versus *v, size_t i, render_parts *page, gvc_error *er
 /* ---------------------------------------------------------------------------------------- page */
 
 static gvc_result add_legend(const versus *v, size_t width, render_parts *page, gvc_error *error) {
-    render_image *image;
     char most[64];
-    const render_color white = {255, 255, 255};
     snprintf(most, sizeof most, " %.3g%% of the bounding box's diagonal, or more",
              100 * v->full_scale);
-    GVC_TRY(render_image_create(width, 48, white, &image, error));
-    render_heat_legend(image, "distance: 0 ", most);
-    return render_parts_add(page, image, error);
+    return render_job_legend("distance: 0 ", most, width, page, error);
 }
 
 static gvc_result draw(versus *v, render_image **image, gvc_error *error) {

@@ -87,23 +87,27 @@ gvc_result render_vertex_distance(const gvc_mesh *mesh, const gvc_mesh *other, d
     return GVC_OK;
 }
 
+gvc_result render_heat_map(render_canvas *canvas, const gvc_mesh *mesh, const double *value,
+                           double full_scale, gvc_error *error) {
+    render_style style;
+    render_color *colors = gvc_alloc(mesh->vertex_count, sizeof *colors);
+    if (!colors) return gvc_fail_memory(error);
+    for (size_t v = 0; v < mesh->vertex_count; v++)
+        colors[v] = render_heat_color(full_scale > 0 ? value[v] / full_scale : 0);
+    render_style_init(&style);
+    style.colors = colors;
+    gvc_result result = render_canvas_mesh(canvas, mesh, &style, error);
+    free(colors);
+    return result;
+}
+
 gvc_result render_distance_map(render_canvas *canvas, const gvc_mesh *mesh, const gvc_mesh *other,
                                double full_scale, gvc_error *error) {
     double *distance = gvc_alloc(mesh->vertex_count, sizeof *distance);
-    render_color *colors = gvc_alloc(mesh->vertex_count, sizeof *colors);
-    gvc_result result = GVC_OK;
-    if (!distance || !colors) result = gvc_fail_memory(error);
+    gvc_result result = distance ? GVC_OK : gvc_fail_memory(error);
     if (result == GVC_OK) result = render_vertex_distance(mesh, other, distance, NULL, error);
-    if (result == GVC_OK) {
-        for (size_t v = 0; v < mesh->vertex_count; v++)
-            colors[v] = render_heat_color(full_scale > 0 ? distance[v] / full_scale : 0);
-        render_style style;
-        render_style_init(&style);
-        style.colors = colors;
-        result = render_canvas_mesh(canvas, mesh, &style, error);
-    }
+    if (result == GVC_OK) result = render_heat_map(canvas, mesh, distance, full_scale, error);
     free(distance);
-    free(colors);
     return result;
 }
 

@@ -26,6 +26,10 @@ render_color render_heat_color(double value);
 gvc_result render_vertex_distance(const gvc_mesh *mesh, const gvc_mesh *other, double *distance,
                                   double *greatest, gvc_error *error);
 
+/** Draws `mesh` coloured by a value per vertex; `full_scale` is that of the last colour. */
+gvc_result render_heat_map(render_canvas *canvas, const gvc_mesh *mesh, const double *value,
+                           double full_scale, gvc_error *error);
+
 /** Draws `mesh` coloured by render_vertex_distance to `other`; `full_scale` is the distance of the
  * last colour. */
 gvc_result render_distance_map(render_canvas *canvas, const gvc_mesh *mesh, const gvc_mesh *other,

@@ -4,6 +4,7 @@
 
 #include "base/result.h"
 #include "mesh/mesh.h"
+#include "render_figure.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -135,4 +136,13 @@ gvc_result render_sight_fit(const render_job *job, gvc_mesh *const *mesh, render
         }
     }
     return GVC_OK;
+}
+
+gvc_result render_job_legend(const char *low, const char *high, size_t width, render_parts *page,
+                             gvc_error *error) {
+    const render_color white = {255, 255, 255};
+    render_image *image;
+    GVC_TRY(render_image_create(width, 48, white, &image, error));
+    render_heat_legend(image, low, high);
+    return render_parts_add(page, image, error);
 }

@@ -19,7 +19,7 @@ typedef struct render_job {
     size_t size; /**< longer side of a panel, in pixels */
     render_view view;
     unsigned threads;
-    bool against, no_graph, weld, any_order, force, quiet;
+    bool against, no_graph, ambiguity, weld, any_order, force, quiet;
     uint64_t frame[RENDER_MOST_FRAMES]; /**< to be shown, ascending; see render_job_choose */
     size_t frame_count;
 } render_job;
@@ -43,6 +43,10 @@ gvc_result render_sight_fit(const render_job *job, gvc_mesh *const *mesh, render
 gvc_result render_meshes_read(const render_job *job, const gvc_source *source, gvc_mesh **mesh,
                               gvc_error *error);
 void render_meshes_free(gvc_mesh **mesh, size_t count);
+
+/** Appends a line with the scale of render_heat_color between two texts. */
+gvc_result render_job_legend(const char *low, const char *high, size_t width, render_parts *page,
+                             gvc_error *error);
 
 /* The three kinds of picture. GVC_OK and a picture, or an error; `status` is EXIT_USAGE after
  * a message about --frames. */

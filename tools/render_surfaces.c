@@ -11,8 +11,9 @@
 
 #include <stdlib.h>
 
-#define COLUMNS 6     /* frames side by side */
-#define MOST_NAMED 12 /* edges with a colour of their own */
+#define COLUMNS 6           /* frames side by side */
+#define MOST_NAMED 12       /* edges with a colour of their own */
+#define MOST_AMBIGUOUS 0.02 /* share of the surface that gets the last colour */
 
 typedef struct surfaces {
     render_job *job;
@@ -35,7 +36,10 @@ static gvc_result draw(surfaces *s, size_t index, const gvc_mesh *mesh,
         render_canvas *canvas;
         GVC_TRY(render_canvas_create(s->sight.width, s->sight.height, &s->sight.camera[side][index],
                                      &canvas, error));
-        gvc_result result = render_canvas_mesh(canvas, mesh, &style, error);
+        gvc_result result =
+            tracked && tracked->ambiguity
+                ? render_heat_map(canvas, mesh, tracked->ambiguity, MOST_AMBIGUOUS, error)
+                : render_canvas_mesh(canvas, mesh, &style, error);
         if (result == GVC_OK && tracked) {
             result = render_cut_graph(canvas, tracked->halfedges, tracked->graph, error);
         }
@@ -84,8 +88,11 @@ static bool on_progress(void *user, gvc_stage stage, uint64_t done, uint64_t tot
 }
 
 static gvc_result draw_graphs(surfaces *s, gvc_error *error) {
-    const render_track_hooks hooks = {
-        .user = s, .picture = on_picture, .segment = on_segment, .progress = on_progress};
+    const render_track_hooks hooks = {.user = s,
+                                      .ambiguity = s->job->ambiguity,
+                                      .picture = on_picture,
+                                      .segment = on_segment,
+                                      .progress = on_progress};
     s->scanning = true;
     cli_progress_begin(&s->progress, "scanning", s->job->quiet);
     gvc_result result = render_track(&s->source, s->job->weld, s->job->threads, s->job->frame,
@@ -171,6 +178,10 @@ static gvc_result lay_out(surfaces *s, render_image **image, gvc_error *error) {
     }
     if (result == GVC_OK && s->edge_count > 0) {
         result = add_keys(s, page.image[0]->width, &page, error);
+    }
+    if (result == GVC_OK && s->job->ambiguity) {
+        result = render_job_legend("alike: 0 ", " 2 % of the surface", page.image[0]->width, &page,
+                                   error);
     }
     if (result == GVC_OK) result = render_parts_page(&page, RENDER_GAP, image, error);
     render_parts_free(&page);

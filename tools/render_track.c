@@ -3,6 +3,7 @@
 #include "render_track.h"
 
 #include "base/memory.h"
+#include "descriptor/ambiguity.h"
 #include "encode/batch.h"
 #include "encode/cut.h"
 
@@ -23,6 +24,25 @@ typedef struct follower {
     gvc_batch batch;
 } follower;
 
+/* Shows a frame with the ambiguity of its tips. Vertices of the mesh are the first of the
+ * halfedges'. */
+static gvc_result show_ambiguity(const follower *f, render_tracked *tracked, gvc_error *error) {
+    const gvc_cut_graph *graph = tracked->graph;
+    size_t tips = 0;
+    uint32_t *tip = gvc_alloc(graph->node_count, sizeof *tip);
+    double *share = gvc_alloc(tracked->halfedges->vertex_count, sizeof *share);
+    gvc_result result = tip && share ? GVC_OK : gvc_fail_memory(error);
+    for (size_t n = 0; result == GVC_OK && n < graph->node_count; n++)
+        if (graph->node[n].kind == GVC_NODE_EXTREMUM) tip[tips++] = graph->node[n].vertex;
+    if (result == GVC_OK)
+        result = gvc_ambiguity(tracked->halfedges, tip, tips, GVC_AMBIGUITY_EPSILON, share, error);
+    tracked->ambiguity = share;
+    if (result == GVC_OK) result = f->hooks->picture(f->hooks->user, tracked, error);
+    free(tip);
+    free(share);
+    return result;
+}
+
 static gvc_result follow(follower *f, gvc_frame_work *work, gvc_error *error) {
     const gvc_cutter cutter = {
         .source = f->source, .options = &f->options, .facts = f->facts, .tracker = f->tracker};
@@ -39,7 +59,8 @@ static gvc_result follow(follower *f, gvc_frame_work *work, gvc_error *error) {
                               .mesh = work->mesh,
                               .halfedges = &work->halfedges,
                               .graph = &work->graph};
-    return f->hooks->picture(f->hooks->user, &tracked, error);
+    return f->hooks->ambiguity ? show_ambiguity(f, &tracked, error)
+                               : f->hooks->picture(f->hooks->user, &tracked, error);
 }
 
 static gvc_result follow_batch(follower *f, uint64_t first, size_t count, gvc_error *error) {

@@ -14,10 +14,12 @@ typedef struct render_tracked {
     const gvc_mesh *mesh;
     const gvc_halfedges *halfedges;
     const gvc_cut_graph *graph;
+    const double *ambiguity; /**< per vertex of `mesh`, from the tips; NULL if not asked for */
 } render_tracked;
 
 typedef struct render_track_hooks {
     void *user;
+    bool ambiguity; /**< wanted (descriptor/ambiguity.h) */
     /** One of the frames asked for, in order. */
     gvc_result (*picture)(void *user, const render_tracked *tracked, gvc_error *error);
     /** A segment begins with `frame`: its graph is another one than before. */

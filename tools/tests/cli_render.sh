@@ -24,6 +24,10 @@ same graph.png again.png
 run 0 $render --no-graph capture --frames 0,2 -o plain.png
 picture plain.png
 if cmp -s graph.png plain.png; then complain "the graph is not drawn"; fi
+run 0 $render --ambiguity capture --frames 0,2 -o ambiguity.png
+picture ambiguity.png
+if cmp -s graph.png ambiguity.png; then complain "the ambiguity is not drawn"; fi
+run 2 $render --ambiguity --no-graph capture -o ambiguity.png
 run 0 $render --no-graph capture --frames 0- -o three.png
 run 0 $render --no-graph capture --frames 2,1,0-2/2 -o list.png
 same list.png three.png
