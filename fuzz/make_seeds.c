@@ -56,9 +56,9 @@ static gvc_result write_samples(gvc_writer *writer, const gvc_buffer *first,
         geometry[i] = (gvc_sample){picture, sizeof picture - i, order[i], i == 0};
         shape[i] = (gvc_sample){record->data, record->size, 0, i == 0};
     }
-    gvc_fragment fragment = {0, 4, geometry, shape};
+    gvc_fragment fragment = {0, 4, geometry, shape, NULL};
     GVC_TRY(gvc_writer_fragment(writer, &fragment, NULL));
-    fragment = (gvc_fragment){4, FRAMES - 4, geometry, shape};
+    fragment = (gvc_fragment){4, FRAMES - 4, geometry, shape, NULL};
     GVC_TRY(gvc_writer_fragment(writer, &fragment, NULL));
     return gvc_writer_finish(writer, NULL);
 }

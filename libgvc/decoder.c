@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file decoder.c
- * From a file to meshes: shape record and picture of a frame, charts cut out of the picture,
- * welded, triangulated, digested, placed in space. Everything up to the last affine map is integer.
+ * From a file to meshes: shape record of a frame, its charts cut out of its picture or taken from
+ * the exact track, welded, triangulated, digested, placed in space. Everything up to the last
+ * affine map is integer.
  */
 #include "base/digest.h"
 #include "base/memory.h"
 #include "chart/picture.h"
 #include "chart/rebuild.h"
 #include "codec/h264.h"
+#include "decoder_exact.h"
 #include "file.h"
 
 #include <stdio.h>
@@ -19,18 +21,20 @@
 
 struct gvc_decoder {
     const gvc_reader *reader;
-    gvc_h264_decoder *h264;
+    size_t fragment; /* being decoded, or NO_FRAGMENT */
+    gvc_shape shape; /* of all frames of the fragment; no charts until known */
+    gvc_weld *weld;  /* one per chart of `shape` */
+
+    bool is_exact;           /* codes come from the exact track, not from pictures */
+    gvc_exact_decoder exact; /* only then */
+
+    gvc_h264_decoder *h264; /* only if not */
     gvc_buffer sample;
     uint16_t *luma; /* last picture received: 3 planes, one above the other */
     gvc_picture_layout layout;
-
-    size_t fragment; /* being decoded, or NO_FRAGMENT */
-    size_t sent;     /* samples of it fed to the H.264 decoder */
+    size_t sent; /* samples of it fed to the H.264 decoder */
     bool flushed;
     uint64_t next_frame; /* presentation number of the next picture to come out */
-
-    gvc_shape shape; /* of all frames of the fragment; no charts until known */
-    gvc_weld *weld;  /* one per chart of `shape` */
 
     uint16_t *codes; /* handed out by gvc_decoder_codes */
 };
@@ -52,18 +56,36 @@ static void forget_fragment(gvc_decoder *decoder) {
 /* Bytes held while one frame is decoded: the picture here and, at worst, 17 times in the H.264
  * decoder's reference and reorder buffers (ISO/IEC 14496-10 A.3.1: at most 16 frames), welds, codes
  * and the mesh. */
-static uint64_t memory_needed(const gvc_config *config) {
+static uint64_t memory_needed(const gvc_config *config, bool is_exact) {
     uint64_t samples = (uint64_t)config->picture_width * config->plane_height;
     uint64_t picture = 3 * samples * sizeof(uint16_t);
     uint64_t per_sample =
         sizeof(uint32_t) + 3 * sizeof(uint16_t) + 3 * sizeof(double) + 2 * 3 * sizeof(uint32_t);
-    return picture + 17 * (picture * 3 / 2) + samples * per_sample;
+    uint64_t images =
+        is_exact ? gvc_exact_decoder_memory(config) : picture + 17 * (picture * 3 / 2);
+    return images + samples * per_sample;
+}
+
+static gvc_result open_video(gvc_decoder *decoder, gvc_error *error) {
+    const gvc_demux *demux = &decoder->reader->demux;
+    const gvc_config *config = &demux->config;
+    decoder->layout = (gvc_picture_layout){config->picture_width, config->plane_height};
+    decoder->luma =
+        gvc_alloc((size_t)config->picture_width * config->plane_height * 3, sizeof *decoder->luma);
+    if (!decoder->luma) return gvc_fail_memory(error);
+    return gvc_h264_decoder_create(demux->avc_config, demux->avc_config_size, config->picture_width,
+                                   3 * config->plane_height, &decoder->h264, error);
 }
 
 gvc_result gvc_decoder_create(const gvc_reader *reader, gvc_decoder **decoder, gvc_error *error) {
     const gvc_config *config = &reader->demux.config;
     *decoder = NULL;
-    uint64_t needed = memory_needed(config);
+    bool preview = reader->options.preview;
+    if (preview && !reader->demux.has_track[GVC_TRACK_GEOMETRY]) {
+        return gvc_fail(error, GVC_ERROR_ARGUMENT, "the file has no preview");
+    }
+    bool is_exact = reader->demux.has_track[GVC_TRACK_EXACT] && !preview;
+    uint64_t needed = memory_needed(config, is_exact);
     if (needed > reader->options.max_memory) {
         return gvc_fail(error, GVC_ERROR_LIMIT,
                         "decoding %u x %u pictures may take %llu MiB, more than the limit",
@@ -74,15 +96,8 @@ gvc_result gvc_decoder_create(const gvc_reader *reader, gvc_decoder **decoder, g
     if (!made) return gvc_fail_memory(error);
     made->reader = reader;
     made->fragment = NO_FRAGMENT;
-    made->layout = (gvc_picture_layout){config->picture_width, config->plane_height};
-    made->luma =
-        gvc_alloc((size_t)config->picture_width * config->plane_height * 3, sizeof *made->luma);
-    gvc_result result = made->luma ? GVC_OK : gvc_fail_memory(error);
-    if (result == GVC_OK) {
-        result = gvc_h264_decoder_create(reader->demux.avc_config, reader->demux.avc_config_size,
-                                         config->picture_width, 3 * config->plane_height,
-                                         &made->h264, error);
-    }
+    made->is_exact = is_exact;
+    gvc_result result = is_exact ? GVC_OK : open_video(made, error);
     if (result != GVC_OK) {
         gvc_decoder_destroy(&made);
         return result;
@@ -94,6 +109,7 @@ gvc_result gvc_decoder_create(const gvc_reader *reader, gvc_decoder **decoder, g
 void gvc_decoder_destroy(gvc_decoder **decoder) {
     if (!decoder || !*decoder) return;
     forget_shape(*decoder);
+    gvc_exact_decoder_free(&(*decoder)->exact);
     gvc_h264_decoder_destroy(&(*decoder)->h264);
     gvc_buffer_free(&(*decoder)->sample);
     free((*decoder)->luma);
@@ -147,18 +163,12 @@ static gvc_result decode_picture(gvc_decoder *decoder, uint64_t frame, gvc_error
     return GVC_OK;
 }
 
-/* Leaves the picture of `frame` in decoder->luma. */
-static gvc_result seek_picture(gvc_decoder *decoder, size_t fragment, uint64_t frame,
-                               gvc_error *error) {
-    if (decoder->fragment != fragment || decoder->next_frame > frame) {
-        gvc_h264_decoder_reset(decoder->h264);
-        if (decoder->fragment != fragment) forget_shape(decoder);
-        decoder->fragment = fragment;
-        decoder->sent = 0;
-        decoder->flushed = false;
-        decoder->next_frame = decoder->reader->demux.fragment[fragment].first_frame;
-    }
-    return decode_picture(decoder, frame, error);
+/* Starts a fragment's video from its beginning. */
+static void restart_video(gvc_decoder *decoder) {
+    gvc_h264_decoder_reset(decoder->h264);
+    decoder->sent = 0;
+    decoder->flushed = false;
+    decoder->next_frame = decoder->reader->demux.fragment[decoder->fragment].first_frame;
 }
 
 /* -------------------------------------------------------------------------------------- shapes */
@@ -172,21 +182,39 @@ static gvc_result build_welds(gvc_decoder *decoder, gvc_error *error) {
     return GVC_OK;
 }
 
-/* Makes decoder->shape that of the fragment, of which it must be empty or known already. The record
- * of `frame` itself is always read, for its digest. */
-static gvc_result seek_shape(gvc_decoder *decoder, size_t fragment, uint64_t frame,
-                             gvc_shape_frame *facts, gvc_error *error) {
-    gvc_shape shape;
-    GVC_TRY(gvc_reader_record(decoder->reader, fragment, frame, &shape, facts, error));
-    if (decoder->weld) {
-        gvc_shape_free(&shape);
-        return GVC_OK;
+/* Begins another fragment, of which only the number is known. */
+static gvc_result begin_fragment(gvc_decoder *decoder, size_t fragment, gvc_error *error) {
+    forget_shape(decoder);
+    decoder->fragment = fragment;
+    GVC_TRY(gvc_reader_shape(decoder->reader, fragment, &decoder->shape, error));
+    GVC_TRY(build_welds(decoder, error));
+    if (decoder->is_exact) return gvc_exact_decoder_begin(&decoder->exact, &decoder->shape, error);
+    restart_video(decoder);
+    return GVC_OK;
+}
+
+/* Leaves the codes of `frame` of the fragment at hand in decoder->exact, or its picture in
+ * decoder->luma. */
+static gvc_result seek_codes(gvc_decoder *decoder, uint64_t frame, gvc_error *error) {
+    if (decoder->is_exact) {
+        return gvc_exact_decoder_seek(&decoder->exact, decoder->reader, decoder->fragment, frame,
+                                      &decoder->shape, error);
     }
-    if (facts->same) GVC_TRY(gvc_reader_shape(decoder->reader, fragment, &shape, error));
-    decoder->shape = shape;
-    gvc_result result = build_welds(decoder, error);
-    if (result != GVC_OK) forget_shape(decoder);
-    return result;
+    if (decoder->next_frame > frame) restart_video(decoder);
+    return decode_picture(decoder, frame, error);
+}
+
+/* Copies the codes of a chart of the frame at hand to `plane`. */
+static void copy_codes(const gvc_decoder *decoder, size_t c, uint16_t *plane) {
+    const gvc_chart_shape *chart = &decoder->shape.chart[c];
+    uint32_t size = chart->sides.size;
+    if (decoder->is_exact) {
+        memcpy(plane, gvc_exact_decoder_chart(&decoder->exact, &decoder->shape, c),
+               (size_t)3 * size * size * sizeof *plane);
+    } else {
+        gvc_picture_cut(decoder->layout, decoder->luma, chart->x, chart->y, size,
+                        decoder->reader->demux.config.code_shift, plane);
+    }
 }
 
 /* ---------------------------------------------------------------------------------------- mesh */
@@ -204,8 +232,7 @@ static gvc_result rebuild_chart(gvc_decoder *decoder, size_t c, gvc_mesh *mesh, 
     if (result == GVC_OK) {
         uint32_t *face = mesh->face + 3 * first_face;
         size_t face_count = gvc_rebuild_face_count(weld);
-        gvc_picture_cut(decoder->layout, decoder->luma, chart->x, chart->y, chart->sides.size,
-                        decoder->reader->demux.config.code_shift, plane);
+        copy_codes(decoder, c, plane);
         gvc_weld_codes(weld, plane, code);
         gvc_rebuild_faces(weld, code, face);
         result = gvc_rebuild_digest_update(digest, weld, code, face, error);
@@ -258,13 +285,20 @@ static gvc_result fail_frame(gvc_error *error, gvc_result result, uint64_t frame
     return result;
 }
 
-/* Leaves picture and shape of `frame` in the decoder. */
+/* Leaves images and shape of `frame` in the decoder. The record of the frame itself is always read,
+ * for its digest. */
 static gvc_result seek(gvc_decoder *decoder, uint64_t frame, gvc_shape_frame *facts,
                        gvc_error *error) {
     size_t fragment;
+    gvc_shape shape = {0};
     GVC_TRY(gvc_reader_find(decoder->reader, frame, &fragment, error));
-    gvc_result result = seek_picture(decoder, fragment, frame, error);
-    if (result == GVC_OK) result = seek_shape(decoder, fragment, frame, facts, error);
+    gvc_result result = GVC_OK;
+    if (decoder->fragment != fragment) result = begin_fragment(decoder, fragment, error);
+    if (result == GVC_OK) {
+        result = gvc_reader_record(decoder->reader, fragment, frame, &shape, facts, error);
+        gvc_shape_free(&shape);
+    }
+    if (result == GVC_OK) result = seek_codes(decoder, frame, error);
     if (result != GVC_OK) forget_fragment(decoder);
     return result;
 }
@@ -274,7 +308,9 @@ gvc_result gvc_decoder_frame(gvc_decoder *decoder, uint64_t frame, gvc_mesh **me
     gvc_shape_frame facts;
     *mesh = NULL;
     gvc_result result = seek(decoder, frame, &facts, error);
-    if (result == GVC_OK) result = rebuild_frame(decoder, facts.digest, mesh, error);
+    if (result == GVC_OK) {
+        result = rebuild_frame(decoder, gvc_reader_digest(decoder->reader, &facts), mesh, error);
+    }
     return fail_frame(error, result, frame);
 }
 
@@ -286,8 +322,7 @@ static gvc_result cut_chart(gvc_decoder *decoder, size_t chart, uint32_t *size, 
     *size = shape->sides.size;
     decoder->codes = gvc_alloc((size_t)*size * *size, 3 * sizeof *decoder->codes);
     if (!decoder->codes) return gvc_fail_memory(error);
-    gvc_picture_cut(decoder->layout, decoder->luma, shape->x, shape->y, *size,
-                    decoder->reader->demux.config.code_shift, decoder->codes);
+    copy_codes(decoder, chart, decoder->codes);
     return GVC_OK;
 }
 

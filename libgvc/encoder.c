@@ -11,6 +11,7 @@
 #include "chart/sample.h"
 #include "encode/batch.h"
 #include "encode/cut.h"
+#include "encode/exact.h"
 #include "encode/group.h"
 #include "encode/rate.h"
 #include "encode/tap.h"
@@ -26,6 +27,8 @@
 /* A new layout must lower the sampling error at least to this share to begin a segment. */
 #define WORTH_A_LAYOUT 0.9
 #define SIZE_SAMPLES 10000
+/* Of the squared error asked for, what sampling may take where a preview is to hold it, too. */
+#define PREVIEW_SHARE 0.7
 
 typedef struct encoder {
     const gvc_source *source;
@@ -61,6 +64,7 @@ static gvc_result check_options(const gvc_encode_options *o, const gvc_source *s
     if (o->gop == 0 || o->gop > 10000) wrong = "a group must have 1 to 10000 frames";
     if (o->frame_rate_num == 0 || o->frame_rate_den == 0) wrong = "the frame rate must be positive";
     if (!(o->persistence > 0 && o->persistence < 1)) wrong = "persistence must be between 0 and 1";
+    if (o->with_preview && !o->lossless) wrong = "only a lossless file has a preview";
     if (!(o->prior_weight >= 0)) wrong = "the prior's weight must not be negative";
     if (!(o->shortest_weight >= 0)) wrong = "the shortest path's weight must not be negative";
     if (!(o->lambda >= 0 && o->lambda <= 1)) wrong = "lambda must be between 0 and 1";
@@ -83,10 +87,15 @@ static gvc_result report_progress(const encoder *e, uint64_t done, gvc_error *er
 
 /* -------------------------------------------------------------------------------------- output */
 
+static bool has_video(const gvc_encode_options *options) {
+    return !options->lossless || options->with_preview;
+}
+
 static void describe(const encoder *e, gvc_config *config) {
     const gvc_encode_options *o = &e->options;
     *config = (gvc_config){.version_major = GVC_FORMAT_MAJOR,
                            .version_minor = GVC_FORMAT_MINOR,
+                           .features = o->lossless ? GVC_FEATURE_EXACT : 0,
                            .picture_width = e->group.layout.width,
                            .plane_height = e->group.layout.plane_height,
                            .image_size = e->size,
@@ -98,37 +107,64 @@ static void describe(const encoder *e, gvc_config *config) {
     memcpy(config->unit, o->unit, sizeof config->unit);
     config->unit[sizeof config->unit - 1] = '\0';
     snprintf(config->encoder, sizeof config->encoder, "libgvc %s", gvc_version());
-    if (isnan(o->crf)) {
+    const char *mode = o->with_preview ? "lossless with preview, "
+                       : o->lossless   ? "lossless, "
+                                       : "";
+    if (isnan(o->crf) || !has_video(o)) {
         snprintf(config->settings, sizeof config->settings,
-                 "size %u, max-rms %.6g%s, gop %u, persistence %.3g", e->size,
+                 "%ssize %u, max-rms %.6g%s, gop %u, persistence %.3g", mode, e->size,
                  o->max_rms_length > 0 ? o->max_rms_length : o->max_rms,
                  o->max_rms_length > 0 ? " (length)" : "", o->gop, o->persistence);
     } else {
         snprintf(config->settings, sizeof config->settings,
-                 "size %u, crf %.4g, gop %u, persistence %.3g", e->size, o->crf, o->gop,
+                 "%ssize %u, crf %.4g, gop %u, persistence %.3g", mode, e->size, o->crf, o->gop,
                  o->persistence);
     }
+}
+
+/* What to do with a group whose error exceeds the one asked for. */
+static gvc_result miss_error(const encoder *e, const char *what, double rms, gvc_error *error) {
+    char message[160];
+    const gvc_group *group = &e->group;
+    snprintf(message, sizeof message,
+             "%s from %llu on reach an RMS error of %.3g of the diagonal at best, at %u "
+             "samples a side",
+             what, (unsigned long long)group->first_frame, rms, e->size);
+    if (!e->options.best_effort) {
+        gvc_result result = gvc_fail(error, GVC_ERROR_QUALITY, "%s", message);
+        return gvc_at_frame(error, result, (int64_t)group->first_frame);
+    }
+    warn(e, (int64_t)group->first_frame, message);
+    return GVC_OK;
+}
+
+/* Codes the group and measures what comes out. */
+static gvc_result code_group(encoder *e, gvc_error *error) {
+    gvc_group *group = &e->group;
+    double rms;
+    bool held = true, exact_held = true;
+    if (group->exact) {
+        GVC_TRY(gvc_exact_code(group, &e->options, error));
+        GVC_TRY(gvc_rate_measure_exact(group, e->source, &e->options, &rms, &exact_held, error));
+        if (!exact_held) GVC_TRY(miss_error(e, "frames", rms, error));
+        e->report.worst_rms = fmax(e->report.worst_rms, rms);
+    }
+    if (!group->video) return GVC_OK;
+    GVC_TRY(gvc_rate_code(group, e->source, &e->options, &e->crf, &rms, &held, error));
+    if (isnan(e->options.crf) && !held && exact_held) {
+        GVC_TRY(miss_error(e, group->exact ? "previews" : "frames", rms, error));
+    }
+    double *worst = group->exact ? &e->report.preview_rms : &e->report.worst_rms;
+    *worst = fmax(*worst, rms);
+    e->report.mean_crf += e->crf * (double)group->count;
+    return GVC_OK;
 }
 
 /* Codes, measures and writes the group; begins the file with the first one. */
 static gvc_result flush_group(encoder *e, gvc_error *error) {
     gvc_group *group = &e->group;
     if (group->count == 0) return GVC_OK;
-    double rms;
-    bool held;
-    GVC_TRY(gvc_rate_code(group, e->source, &e->options, &e->crf, &rms, &held, error));
-    if (isnan(e->options.crf) && !held) {
-        char message[160];
-        snprintf(message, sizeof message,
-                 "frames from %llu on reach an RMS error of %.3g of the diagonal at best, at %u "
-                 "samples a side",
-                 (unsigned long long)group->first_frame, rms, e->size);
-        if (!e->options.best_effort) {
-            gvc_result result = gvc_fail(error, GVC_ERROR_QUALITY, "%s", message);
-            return gvc_at_frame(error, result, (int64_t)group->first_frame);
-        }
-        warn(e, (int64_t)group->first_frame, message);
-    }
+    GVC_TRY(code_group(e, error));
     if (!e->writer) {
         gvc_config config;
         describe(e, &config);
@@ -138,8 +174,6 @@ static gvc_result flush_group(encoder *e, gvc_error *error) {
     GVC_TRY(gvc_group_write(group, e->source, e->writer, error));
     e->report.gop_count++;
     e->report.frame_count += group->count;
-    e->report.worst_rms = fmax(e->report.worst_rms, rms);
-    e->report.mean_crf += e->crf * (double)group->count;
     uint64_t done = group->first_frame + group->count;
     gvc_group_clear(group);
     return report_progress(e, done, error);
@@ -174,7 +208,14 @@ static gvc_result predict_cost(size_context *context, size_t frames, double *cos
     gvc_result result =
         gvc_parallel_for(context->e->options.threads, frames, try_size, context, error);
     for (size_t i = 0; i < frames; i++) square += context->square[i] / (double)frames;
-    *cost = square < 1 ? 0.8 * log(context->size) - 0.7 * log(1 - square) : INFINITY;
+    const gvc_encode_options *options = &context->e->options;
+    if (options->lossless) {
+        /* bytes grow with the samples, and nothing else has to be made good for */
+        *cost = square <= 1 ? 2 * log(context->size) : INFINITY;
+        if (has_video(options) && isnan(options->crf) && square > PREVIEW_SHARE) *cost = INFINITY;
+    } else {
+        *cost = square < 1 ? 0.8 * log(context->size) - 0.7 * log(1 - square) : INFINITY;
+    }
     return result;
 }
 
@@ -216,6 +257,8 @@ static gvc_result settle_size(encoder *e, size_t first, size_t end, gvc_error *e
     uint32_t padded = (e->size + BLOCK - 1) / BLOCK * BLOCK;
     gvc_picture_layout layout = {padded, padded};
     GVC_TRY(gvc_group_create(e->options.gop, layout, &e->group, error));
+    e->group.video = has_video(&e->options);
+    e->group.exact = e->options.lossless;
     return gvc_segment_resize(&e->segment, &e->batch.work[first], e->size, error);
 }
 
@@ -304,28 +347,43 @@ static gvc_result sample_charts(image_context *c, size_t count, gvc_error *error
     return GVC_OK;
 }
 
+/* What the group will code of a frame. */
+static gvc_result quantise(const gvc_group *group, const gvc_segment *segment, const double *image,
+                           gvc_group_frame *frame, gvc_error *error) {
+    size_t picture = (size_t)3 * group->layout.width * group->layout.plane_height;
+    size_t samples = (size_t)3 * segment->sides.size * segment->sides.size;
+    if (group->video) {
+        frame->luma = gvc_alloc(picture, sizeof *frame->luma);
+        if (!frame->luma) return gvc_fail_memory(error);
+        gvc_segment_quantise(segment, image, group->layout, frame->luma);
+    }
+    if (group->exact) {
+        frame->codes = gvc_alloc(samples, sizeof *frame->codes);
+        if (!frame->codes) return gvc_fail_memory(error);
+        gvc_exact_quantise(segment, image, frame->codes);
+    }
+    return GVC_OK;
+}
+
 static gvc_result fit_one(void *user, size_t index, gvc_error *error) {
     image_context *c = user;
     encoder *e = c->e;
     const gvc_segment *segment = &e->segment;
-    size_t picture = (size_t)3 * e->group.layout.width * e->group.layout.plane_height;
-    uint16_t *luma = gvc_alloc(picture, sizeof *luma);
-    if (!luma) return gvc_fail_memory(error);
-    e->group.frame[e->group.count + index].luma = luma;
     GVC_TRY(gvc_chart_fit(&c->work[index], &c->chart[index], &segment->weld,
                           &segment->image_options, c->image[index], error));
     if (e->tap) {
         GVC_TRY(
             e->tap->image(e->tap->user, c->work[index].number, c->image[index], e->size, error));
     }
-    gvc_segment_quantise(segment, c->image[index], e->group.layout, luma);
-    return GVC_OK;
+    return quantise(&e->group, segment, c->image[index], &e->group.frame[e->group.count + index],
+                    error);
 }
 
 static void drop_images(gvc_group *group, size_t from, size_t end) {
     for (size_t i = from; i < end; i++) {
         free(group->frame[i].luma);
-        group->frame[i].luma = NULL;
+        free(group->frame[i].codes);
+        group->frame[i] = (gvc_group_frame){0};
     }
 }
 

@@ -14,6 +14,14 @@ struct gvc_reader {
     const uint8_t *bytes; /**< borrowed memory, or NULL */
 };
 
+/** Whether frames can be decoded both exactly and from H.264. */
+static inline bool gvc_reader_has_preview(const gvc_reader *reader) {
+    return reader->demux.has_track[GVC_TRACK_GEOMETRY] && reader->demux.has_track[GVC_TRACK_EXACT];
+}
+
+/** The digest of what the reader's options ask to be decoded. */
+const uint8_t *gvc_reader_digest(const gvc_reader *reader, const gvc_shape_frame *facts);
+
 /** Fragment that holds a frame. GVC_ERROR_ARGUMENT for a frame number past the end,
  * GVC_ERROR_CORRUPT for one that lies in a damaged part, GVC_ERROR_TRUNCATED for one that the file
  * declares but does not reach. */
@@ -30,7 +38,7 @@ gvc_result gvc_reader_record(const gvc_reader *reader, size_t fragment, uint64_t
 gvc_result gvc_reader_shape(const gvc_reader *reader, size_t fragment, gvc_shape *shape,
                             gvc_error *error);
 
-/** The geometry image of a chart as it comes out of the picture, before twins are welded: `*plane`
+/** The geometry image of a chart as it comes out of its track, before twins are welded: `*plane`
  * points at 3 * size * size 16-bit codes, x plane first, which the decoder owns and keeps until the
  * next call; NULL on failure. Checksums are verified; the digest, which covers the welded surface,
  * is not. GVC_ERROR_ARGUMENT for a chart number past the end. */

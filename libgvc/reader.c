@@ -114,6 +114,12 @@ void gvc_reader_close(gvc_reader **reader) {
     *reader = NULL;
 }
 
+static uint64_t track_bytes(const gvc_demux *demux, gvc_track_kind kind) {
+    uint64_t sum = 0;
+    for (size_t i = 0; i < demux->sample_count[kind]; i++) sum += demux->sample[kind][i].size;
+    return sum;
+}
+
 void gvc_reader_info(const gvc_reader *reader, gvc_info *info) {
     const gvc_config *config = &reader->demux.config;
     *info = (gvc_info){
@@ -129,6 +135,11 @@ void gvc_reader_info(const gvc_reader *reader, gvc_info *info) {
         .frame_rate_den = config->frame_rate_den,
         .gop_count = reader->demux.fragment_count,
         .damage_count = reader->demux.damage_count,
+        .lossless = reader->demux.has_track[GVC_TRACK_EXACT],
+        .preview = gvc_reader_has_preview(reader),
+        .geometry_bytes = track_bytes(&reader->demux, GVC_TRACK_GEOMETRY),
+        .shape_bytes = track_bytes(&reader->demux, GVC_TRACK_SHAPE),
+        .exact_bytes = track_bytes(&reader->demux, GVC_TRACK_EXACT),
     };
     snprintf(info->unit, sizeof info->unit, "%s", config->unit);
     snprintf(info->encoder, sizeof info->encoder, "%s", config->encoder);
@@ -191,11 +202,21 @@ gvc_result gvc_reader_record(const gvc_reader *reader, size_t fragment, uint64_t
                           first ? "the first shape record of a fragment says \"same\""
                                 : "a shape record inside a fragment does not say \"same\"");
     }
+    if (result == GVC_OK && facts->has_preview != gvc_reader_has_preview(reader)) {
+        gvc_shape_free(shape);
+        result = gvc_fail(error, GVC_ERROR_CORRUPT,
+                          facts->has_preview ? "a digest of a preview that the file does not have"
+                                             : "the digest of the preview is missing");
+    }
     if (result != GVC_OK && error && error->offset == GVC_NO_OFFSET) {
         error->offset = demux->sample[GVC_TRACK_SHAPE][index].offset;
         snprintf(error->where, sizeof error->where, "mdat/shape record");
     }
     return gvc_at_frame(error, result, (int64_t)frame);
+}
+
+const uint8_t *gvc_reader_digest(const gvc_reader *reader, const gvc_shape_frame *facts) {
+    return facts->has_preview && reader->options.preview ? facts->preview_digest : facts->digest;
 }
 
 gvc_result gvc_reader_shape(const gvc_reader *reader, size_t fragment, gvc_shape *shape,
@@ -218,11 +239,12 @@ gvc_result gvc_reader_frame_info(const gvc_reader *reader, uint64_t frame, gvc_f
     const gvc_demux *demux = &reader->demux;
     const gvc_fragment_entry *entry = &demux->fragment[fragment];
     for (unsigned kind = 0; kind < GVC_TRACK_KINDS; kind++) {
+        if (!demux->has_track[kind]) continue;
         size_t index = gvc_demux_sample_of(demux, entry, (gvc_track_kind)kind, frame);
         info->byte_count += demux->sample[kind][index].size;
     }
-    info->keyframe = gvc_demux_sample_of(demux, entry, GVC_TRACK_GEOMETRY, frame) ==
-                     entry->first_sample[GVC_TRACK_GEOMETRY];
+    gvc_track_kind main = gvc_demux_main(demux);
+    info->keyframe = gvc_demux_sample_of(demux, entry, main, frame) == entry->first_sample[main];
     info->segment = shape.segment;
     info->chart_count = (uint32_t)shape.chart_count;
     for (size_t c = 0; c < shape.chart_count; c++) {
@@ -233,7 +255,7 @@ gvc_result gvc_reader_frame_info(const gvc_reader *reader, uint64_t frame, gvc_f
         for (size_t n = 0; n < chart->node_count; n++)
             info->extremum_count += chart->node[n].kind == 1;
     }
-    memcpy(info->digest, facts.digest, sizeof info->digest);
+    memcpy(info->digest, gvc_reader_digest(reader, &facts), sizeof info->digest);
     snprintf(info->source, sizeof info->source, "%s", facts.source);
     gvc_shape_free(&shape);
     return GVC_OK;

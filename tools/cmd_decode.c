@@ -15,16 +15,17 @@ static const char usage[] =
     "      --format F        off, obj, ply, ply-ascii (default: by the name's ending)\n"
     "      --frames A-B      only these frames: 7, 3-9, 3-\n"
     "  -f, --force           replace files that exist\n"
+    "      --preview         of a lossless file, the preview instead of the exact frames\n"
     "      --keep-going      get all frames before and after damage; exit status 1 if any is lost\n"
     "      --no-output       decode only, write nothing (to time it)\n"
     "  -q, --quiet           no progress\n";
 
-enum { OPT_FORMAT = 256, OPT_FRAMES, OPT_KEEP_GOING, OPT_NO_OUTPUT };
+enum { OPT_FORMAT = 256, OPT_FRAMES, OPT_PREVIEW, OPT_KEEP_GOING, OPT_NO_OUTPUT };
 
 typedef struct decode_arguments {
     const char *input, *output, *frames;
     gvc_mesh_format format;
-    bool force, keep_going, no_output, quiet;
+    bool force, preview, keep_going, no_output, quiet;
     uint64_t first, last;
 } decode_arguments;
 
@@ -49,6 +50,7 @@ static int parse(decode_arguments *a, int argc, char **argv) {
                                             {"format", required_argument, NULL, OPT_FORMAT},
                                             {"frames", required_argument, NULL, OPT_FRAMES},
                                             {"force", no_argument, NULL, 'f'},
+                                            {"preview", no_argument, NULL, OPT_PREVIEW},
                                             {"keep-going", no_argument, NULL, OPT_KEEP_GOING},
                                             {"no-output", no_argument, NULL, OPT_NO_OUTPUT},
                                             {"quiet", no_argument, NULL, 'q'},
@@ -73,6 +75,9 @@ static int parse(decode_arguments *a, int argc, char **argv) {
             break;
         case OPT_FRAMES:
             a->frames = optarg;
+            break;
+        case OPT_PREVIEW:
+            a->preview = true;
             break;
         case OPT_KEEP_GOING:
             a->keep_going = true;
@@ -215,6 +220,7 @@ int cmd_decode(int argc, char **argv) {
     if (status != EXIT_DONE) return status < 0 ? EXIT_DONE : status;
     gvc_read_options_init(&options);
     options.keep_going = arguments.keep_going;
+    options.preview = arguments.preview;
     gvc_error_init(&error);
     if (gvc_reader_open_file(arguments.input, &options, &reader, &error) != GVC_OK) {
         return cli_fail("decode", arguments.input, &error);

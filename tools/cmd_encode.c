@@ -21,10 +21,15 @@ static const char usage[] =
     "                        bounding box's diagonal (0.05%), or a length in the unit of the "
     "meshes\n"
     "                        (0.5). Fails where it is out of reach. Default 0.1%, best effort\n"
+    "      --lossless        keep the geometry images exactly, as 16-bit codes; --max-rms then "
+    "bounds\n"
+    "                        what sampling alone costs\n"
+    "      --with-preview    and H.264 pictures of them, within --max-rms or at --crf\n"
     "      --size S          samples a side of the geometry images, 16 to 2049 (default: by "
     "--max-rms)\n"
     "      --crf Q           x264's rate factor, -12 to 51, instead of --max-rms\n"
-    "      --gop N           frames in a group, the unit of random access (default 60)\n"
+    "      --gop N           frames in a group, the unit of random access, and from keyframe to\n"
+    "                        keyframe (default 60)\n"
     "  -r, --rate R          frames per second: 30, 29.97, 30000/1001 (default 30)\n"
     "      --unit U          unit of the coordinates, recorded only: m, mm, ...\n"
     "      --no-weld         do not merge equal positions (OBJ captures split along texture "
@@ -46,6 +51,8 @@ static const char usage[] =
 
 enum {
     OPT_SIZE = 256,
+    OPT_LOSSLESS,
+    OPT_WITH_PREVIEW,
     OPT_CRF,
     OPT_GOP,
     OPT_UNIT,
@@ -158,6 +165,12 @@ static int set_option(encode_arguments *a, int option, const char *value) {
     case OPT_NO_REGISTRATION:
         o->registration = false;
         return EXIT_DONE;
+    case OPT_LOSSLESS:
+        o->lossless = true;
+        return EXIT_DONE;
+    case OPT_WITH_PREVIEW:
+        o->with_preview = true;
+        return EXIT_DONE;
     case OPT_NO_WELD:
         o->weld = false;
         return EXIT_DONE;
@@ -184,6 +197,8 @@ static int parse(encode_arguments *a, int argc, char **argv) {
         {"gop", required_argument, NULL, OPT_GOP},
         {"rate", required_argument, NULL, 'r'},
         {"unit", required_argument, NULL, OPT_UNIT},
+        {"lossless", no_argument, NULL, OPT_LOSSLESS},
+        {"with-preview", no_argument, NULL, OPT_WITH_PREVIEW},
         {"no-weld", no_argument, NULL, OPT_NO_WELD},
         {"any-order", no_argument, NULL, OPT_ANY_ORDER},
         {"persistence", required_argument, NULL, OPT_PERSISTENCE},
@@ -203,6 +218,14 @@ static int parse(encode_arguments *a, int argc, char **argv) {
     }
     if (optind == argc) return cli_usage("encode", "name the frames to encode");
     if (!a->output) return cli_usage("encode", "name the file to write with -o");
+    const gvc_encode_options *o = &a->options;
+    if (o->with_preview && !o->lossless) {
+        return cli_usage("encode",
+                         "--with-preview is for --lossless: other files are H.264 anyway");
+    }
+    if (o->lossless && !o->with_preview && !isnan(o->crf)) {
+        return cli_usage("encode", "--lossless without --with-preview has no use for --crf");
+    }
     return EXIT_DONE;
 }
 
@@ -210,11 +233,13 @@ static void summarise(const encode_arguments *a, const gvc_encode_report *report
     if (a->quiet) return;
     fprintf(stderr,
             "%llu frames, %llu bytes (%.0f a frame), %u x %u images, %llu segment%s, "
-            "RMS error %.4f%% of the diagonal at worst, %.1f s\n",
+            "RMS error %.4f%% of the diagonal at worst, ",
             (unsigned long long)report->frame_count, (unsigned long long)report->byte_count,
             (double)report->byte_count / (double)report->frame_count, report->image_size,
             report->image_size, (unsigned long long)report->segment_count,
-            report->segment_count == 1 ? "" : "s", 100 * report->worst_rms, seconds);
+            report->segment_count == 1 ? "" : "s", 100 * report->worst_rms);
+    if (a->options.with_preview) fprintf(stderr, "preview %.4f%%, ", 100 * report->preview_rms);
+    fprintf(stderr, "%.1f s\n", seconds);
 }
 
 static int encode(encode_arguments *a, frame_list *list) {

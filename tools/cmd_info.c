@@ -52,6 +52,19 @@ static void print_digest(const uint8_t digest[8]) {
     for (int i = 0; i < 8; i++) printf("%02x", digest[i]);
 }
 
+static bool has_video(const gvc_info *info) { return !info->lossless || info->preview; }
+
+static const char *profile(const gvc_info *info) {
+    if (!info->lossless) return "lossy";
+    return info->preview ? "lossless with preview" : "lossless";
+}
+
+static void print_track(const char *name, uint64_t bytes, const gvc_info *info) {
+    if (bytes == 0) return; /* there is no such track */
+    printf("track        %s, %" PRIu64 " bytes, %.0f a frame\n", name, bytes,
+           (double)bytes / (double)info->frame_count);
+}
+
 static void print_text(const info_arguments *a, const gvc_info *info) {
     double rate = (double)info->frame_rate_num / info->frame_rate_den;
     printf("%s: gvc %u.%u, written by %s\n", a->input, info->format_version_major,
@@ -67,8 +80,14 @@ static void print_text(const info_arguments *a, const gvc_info *info) {
         double each = (double)info->byte_count / (double)info->frame_count;
         printf(", %.0f a frame, %.1f kbit/s", each, each * rate * 8 / 1000);
     }
-    printf("\nimage        %u x %u samples (pictures of %u x %u)\n", info->image_size,
-           info->image_size, info->picture_width, info->picture_height);
+    printf("\nimage        %u x %u samples", info->image_size, info->image_size);
+    if (has_video(info)) {
+        printf(" (pictures of %u x %u)", info->picture_width, info->picture_height);
+    }
+    printf("\nprofile      %s\n", profile(info));
+    print_track("H.264", info->geometry_bytes, info);
+    print_track("exact", info->exact_bytes, info);
+    print_track("shape", info->shape_bytes, info);
     printf("groups       %" PRIu64 "\n", info->gop_count);
     printf("unit         %s\n", info->unit[0] ? info->unit : "not stated");
 }
@@ -82,9 +101,12 @@ static void print_json(const info_arguments *a, const gvc_info *info) {
     printf(",\n  \"frames\": %" PRIu64 ",\n  \"declared_frames\": %" PRIu64
            ",\n  \"bytes\": %" PRIu64
            ",\n  \"image_size\": %u,\n  \"picture\": [%u, %u],\n  \"frame_rate\": [%u, %u],\n"
-           "  \"groups\": %" PRIu64 ",\n  \"damaged_places\": %" PRIu64 ",\n  \"unit\": ",
+           "  \"profile\": \"%s\",\n  \"track_bytes\": {\"h264\": %" PRIu64 ", \"exact\": %" PRIu64
+           ", \"shape\": %" PRIu64 "},\n  \"groups\": %" PRIu64 ",\n  \"damaged_places\": %" PRIu64
+           ",\n  \"unit\": ",
            info->frame_count, info->declared_count, info->byte_count, info->image_size,
            info->picture_width, info->picture_height, info->frame_rate_num, info->frame_rate_den,
+           profile(info), info->geometry_bytes, info->exact_bytes, info->shape_bytes,
            info->gop_count, info->damage_count);
     cli_json_string(stdout, info->unit);
 }

@@ -136,9 +136,10 @@ static void verify_frames(const verify_arguments *a, const gvc_reader *reader, g
     cli_progress_end(&progress);
 }
 
-static void print_totals(const verify_arguments *a, const verify_totals *totals, uint64_t count) {
+static void print_totals(const verify_arguments *a, const char *what, const verify_totals *totals,
+                         uint64_t count) {
     if (a->quiet && totals->good == count) return;
-    printf("%s: %" PRIu64 " of %" PRIu64 " frames good", a->input, totals->good, count);
+    printf("%s: %" PRIu64 " of %" PRIu64 " %s good", a->input, totals->good, count, what);
     if (a->against && totals->good > 0) {
         double n = (double)totals->good;
         printf("; distance to the capture, %% of the diagonal: mean %.4f, RMS %.4f, Hausdorff %.3f",
@@ -148,7 +149,8 @@ static void print_totals(const verify_arguments *a, const verify_totals *totals,
     printf("\n");
 }
 
-static int verify(const verify_arguments *a, const gvc_reader *reader, const gvc_source *source) {
+static int verify(const verify_arguments *a, const gvc_reader *reader, const char *what,
+                  const gvc_source *source) {
     gvc_info info;
     gvc_error error;
     gvc_decoder *decoder = NULL;
@@ -167,16 +169,18 @@ static int verify(const verify_arguments *a, const gvc_reader *reader, const gvc
     }
     verify_frames(a, reader, decoder, count, source, &totals);
     gvc_decoder_destroy(&decoder);
-    print_totals(a, &totals, count);
+    print_totals(a, what, &totals, count);
     return totals.good == count && info.damage_count == 0 ? EXIT_DONE : EXIT_DATA;
 }
 
 /* A damaged file is opened once more to name every frame it cost. */
-static gvc_result open_file(const verify_arguments *a, gvc_reader **reader, bool *damaged) {
+static gvc_result open_file(const verify_arguments *a, bool preview, gvc_reader **reader,
+                            bool *damaged) {
     gvc_read_options options;
     gvc_error error;
     gvc_error_init(&error);
     gvc_read_options_init(&options);
+    options.preview = preview;
     *damaged = false;
     gvc_result result = gvc_reader_open_file(a->input, &options, reader, &error);
     if (result == GVC_OK) return GVC_OK;
@@ -187,13 +191,29 @@ static gvc_result open_file(const verify_arguments *a, gvc_reader **reader, bool
     return gvc_reader_open_file(a->input, &options, reader, &error);
 }
 
+/* Frames as they are decoded by default and, of a lossless file with previews, these. */
+static int verify_file(const verify_arguments *a, const gvc_source *source) {
+    int status = EXIT_DONE;
+    bool more = true;
+    for (bool preview = false; more; preview = true) {
+        gvc_reader *reader = NULL;
+        gvc_info info = {0};
+        bool damaged;
+        if (open_file(a, preview, &reader, &damaged) != GVC_OK) return EXIT_DATA;
+        gvc_reader_info(reader, &info);
+        int one = verify(a, reader, preview ? "previews" : "frames", source);
+        if (one != EXIT_DONE || damaged) status = EXIT_DATA;
+        more = !preview && info.preview;
+        gvc_reader_close(&reader);
+    }
+    return status;
+}
+
 int cmd_verify(int argc, char **argv) {
     verify_arguments arguments = {0};
     frame_list list = {0};
     gvc_source source;
-    gvc_reader *reader = NULL;
     gvc_error error;
-    bool damaged;
     int status = parse(&arguments, argc, argv);
     if (status != EXIT_DONE) return status < 0 ? EXIT_DONE : status;
     gvc_error_init(&error);
@@ -204,12 +224,7 @@ int cmd_verify(int argc, char **argv) {
         }
         source = frame_list_source(&list);
     }
-    status = EXIT_DATA;
-    if (open_file(&arguments, &reader, &damaged) == GVC_OK) {
-        status = verify(&arguments, reader, arguments.against ? &source : NULL);
-        if (damaged) status = EXIT_DATA;
-    }
-    gvc_reader_close(&reader);
+    status = verify_file(&arguments, arguments.against ? &source : NULL);
     frame_list_free(&list);
     return status;
 }

@@ -64,9 +64,9 @@ gvc_result gvc_config_read(gvc_cursor *cursor, gvc_config *config, gvc_error *er
         return gvc_fail(error, GVC_ERROR_UNSUPPORTED, "format version %u.%u; known up to %d.x",
                         config->version_major, config->version_minor, GVC_FORMAT_MAJOR);
     }
-    if (!cursor->failed && config->features != 0) {
+    if (!cursor->failed && config->features & ~GVC_FEATURE_EXACT) {
         return gvc_fail(error, GVC_ERROR_UNSUPPORTED, "features 0x%08x are not known here",
-                        config->features);
+                        config->features & ~GVC_FEATURE_EXACT);
     }
     config->picture_width = gvc_read_u32(cursor);
     config->plane_height = gvc_read_u32(cursor);

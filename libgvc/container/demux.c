@@ -170,6 +170,9 @@ cleanup:
     return result;
 }
 
+static const char *const sample_name[GVC_TRACK_KINDS] = {"a picture", "a shape record",
+                                                         "an exact image"};
+
 gvc_result gvc_demux_read(const gvc_demux *demux, const gvc_io *io, gvc_track_kind kind,
                           size_t index, gvc_buffer *buffer, gvc_error *error) {
     gvc_buffer_clear(buffer);
@@ -186,7 +189,7 @@ gvc_result gvc_demux_read(const gvc_demux *demux, const gvc_io *io, gvc_track_ki
     if (gvc_crc32(0, buffer->data, sample->size) != sample->crc) {
         gvc_box mdat = {.offset = sample->offset, .path = "mdat"};
         result = gvc_box_fail(&mdat, error, GVC_ERROR_CORRUPT, "the checksum of %s is wrong",
-                              kind == GVC_TRACK_SHAPE ? "a shape record" : "a picture");
+                              sample_name[kind]);
         return gvc_at_frame(error, result, frame);
     }
     buffer->size = sample->size;

@@ -17,26 +17,27 @@
  *   moov
  *     mvhd
  *     trak  geometry         tkhd, edts/elst, mdia/minf/stbl/stsd/avc1 { avcC, colr, gvcC* }
- *     trak  shape            tkhd, tref/cdsc -> geometry, .../stsd/urim { uri  "urn:gvc:shape:0" }
- *     mvex                   mehd if the number of frames is known, trex for both tracks
- *     gcrc*                  last child: CRC-32 from the file's first byte up to its own CRC field
- *   per group of frames:
- *   moof
- *     mfhd
- *     traf  for each of both tracks: tfhd (default-base-is-moof), tfdt, one trun,
+ *     trak  shape            tkhd, tref/cdsc -> main, .../stsd/urim { uri  "urn:gvc:shape:0" }
+ *     trak  exact            tkhd, .../stsd/urim { uri  "urn:gvc:exact:0", gvcC* if it is the main
+ * } mvex                   mehd if the number of frames is known, trex for each track gcrc* last
+ * child: CRC-32 from the file's first byte up to its own CRC field per group of frames: moof mfhd
+ *     traf  for each of these tracks: tfhd (default-base-is-moof), tfdt, one trun,
  *           gcks*            CRC-32 (u32) of each sample, in the order of trun
  *     gcrc*                  last child: CRC-32 from moof's first byte up to its own CRC field
- *   mdat                     samples of shape, then of geometry, in trun's order, no other byte
+ *   mdat                     samples of shape, geometry, exact, in trun's order, no other byte
  *   mfra
- *     tfra                   of geometry: one entry per fragment
+ *     tfra                   of the main track: one entry per fragment
  *     gcrc*                  CRC-32 from mfra's first byte up to its own CRC field
  *     mfro                   last
+ *
+ * Of geometry and exact track one may be missing. The main track is the geometry track if there is
+ * one, else the exact track. There is an exact track if, and only if, gvcC says so.
  *
  * gcrc and gcks are FullBoxes of version 0. The CRC-32 is that of gvc_crc32. Every byte of these
  * boxes is thus covered by a checksum or compared exactly; boxes not named here that stand at the
  * top level behind moov are not.
  *
- * Both tracks have timescale frame_rate_num, and every sample lasts frame_rate_den. The number of
+ * All tracks have timescale frame_rate_num, and every sample lasts frame_rate_den. The number of
  * the frame that a sample belongs to is
  *   (decoding time + composition offset - media_time of the track's edit list, or 0) /
  *   frame_rate_den,
@@ -48,7 +49,8 @@
 typedef enum gvc_track_kind {
     GVC_TRACK_GEOMETRY = 0,
     GVC_TRACK_SHAPE = 1,
-    GVC_TRACK_KINDS = 2
+    GVC_TRACK_EXACT = 2,
+    GVC_TRACK_KINDS = 3
 } gvc_track_kind;
 
 typedef struct gvc_sample_entry {
@@ -77,10 +79,11 @@ typedef struct gvc_demux {
     gvc_config config;
     uint8_t *avc_config;
     size_t avc_config_size;
+    bool has_track[GVC_TRACK_KINDS];
     size_t fragment_count;
     gvc_fragment_entry *fragment;
-    size_t sample_count[GVC_TRACK_KINDS]; /**< geometry in decoding order, shape in presentation
-                                             order */
+    size_t sample_count[GVC_TRACK_KINDS]; /**< geometry in decoding order, others in presentation
+                                             order; 0 of a track that is missing */
     gvc_sample_entry *sample[GVC_TRACK_KINDS];
     size_t damage_count;
     gvc_damage *damage;
@@ -96,7 +99,13 @@ gvc_result gvc_demux_open(const gvc_io *io, const gvc_read_options *options, gvc
                           gvc_error *error);
 void gvc_demux_free(gvc_demux *demux);
 
-/** Index of the sample of a frame, which must be one of those of `fragment`. */
+/** The track that shape records describe and the index points at. */
+static inline gvc_track_kind gvc_demux_main(const gvc_demux *demux) {
+    return demux->has_track[GVC_TRACK_GEOMETRY] ? GVC_TRACK_GEOMETRY : GVC_TRACK_EXACT;
+}
+
+/** Index of the sample of a frame, which must be one of those of `fragment`; the track must not
+ * be missing. */
 static inline size_t gvc_demux_sample_of(const gvc_demux *demux, const gvc_fragment_entry *fragment,
                                          gvc_track_kind kind, uint64_t frame) {
     size_t first = fragment->first_sample[kind];

@@ -179,7 +179,7 @@ static gvc_result read_samples(gvc_parser *parser, const gvc_box *moof, track_ru
         GVC_TRY(read_sample(parser, run, first_flags, i, &entry, &shown, error));
         entry.offset = moof->offset + run->data_offset + run->byte_count;
         run->byte_count += entry.size;
-        size_t place = before + (run->kind == GVC_TRACK_SHAPE ? shown : i);
+        size_t place = before + (run->kind == GVC_TRACK_GEOMETRY ? i : shown);
         demux->sample[run->kind][place] = entry;
     }
     for (size_t i = before; i < before + run->count; i++) {
@@ -217,59 +217,75 @@ static gvc_result read_trafs(gvc_parser *parser, const gvc_box *moof,
         GVC_TRY(read_samples(parser, moof, &run[kind], error));
     }
     if (!*ours) return GVC_OK;
-    if (!found[GVC_TRACK_GEOMETRY] || !found[GVC_TRACK_SHAPE] || foreign) {
+    for (unsigned kind = 0; kind < GVC_TRACK_KINDS; kind++) {
+        if (found[kind] == parser->demux->has_track[kind] && !foreign) continue;
         return gvc_box_fail(moof, error, GVC_ERROR_CORRUPT,
-                            "a fragment must hold the geometry and the shape track and no other");
+                            "a fragment must hold each track of geometry images and shapes, and no "
+                            "other");
     }
     return GVC_OK;
 }
 
-/** mdat holds the shape samples, then the geometry samples, and nothing else: no byte escapes the
+/** Order of the tracks in mdat. */
+static const gvc_track_kind data_order[GVC_TRACK_KINDS] = {GVC_TRACK_SHAPE, GVC_TRACK_GEOMETRY,
+                                                           GVC_TRACK_EXACT};
+
+/** mdat holds the samples of one track after the other, and nothing else: no byte escapes the
  * checksums. */
-static gvc_result check_data(const gvc_box *moof, const gvc_box *mdat, const track_run *run,
-                             gvc_error *error) {
-    const track_run *geometry = &run[GVC_TRACK_GEOMETRY], *shape = &run[GVC_TRACK_SHAPE];
-    uint64_t data = moof->size + mdat->header_size;
-    if (shape->data_offset != data || geometry->data_offset != data + shape->byte_count) {
-        return gvc_box_fail(moof, error, GVC_ERROR_CORRUPT,
-                            "data offsets %llu (shape) and %llu (geometry); should be %llu and "
-                            "%llu",
-                            (unsigned long long)shape->data_offset,
-                            (unsigned long long)geometry->data_offset, (unsigned long long)data,
-                            (unsigned long long)(data + shape->byte_count));
+static gvc_result check_data(const gvc_parser *parser, const gvc_box *moof, const gvc_box *mdat,
+                             const track_run *run, gvc_error *error) {
+    uint64_t begin = moof->size + mdat->header_size, next = begin;
+    for (unsigned i = 0; i < GVC_TRACK_KINDS; i++) {
+        const track_run *of = &run[data_order[i]];
+        if (!parser->demux->has_track[data_order[i]]) continue;
+        if (of->data_offset != next) {
+            return gvc_box_fail(moof, error, GVC_ERROR_CORRUPT,
+                                "data offset %llu of track %u; should be %llu",
+                                (unsigned long long)of->data_offset, of->defaults.track_id,
+                                (unsigned long long)next);
+        }
+        next += of->byte_count;
     }
-    uint64_t payload = shape->byte_count + geometry->byte_count;
-    if (payload == mdat->size - mdat->header_size) return GVC_OK;
+    if (next - begin == mdat->size - mdat->header_size) return GVC_OK;
     return gvc_box_fail(
         mdat, error, GVC_ERROR_CORRUPT, "%llu bytes of data, but the samples take %llu",
-        (unsigned long long)(mdat->size - mdat->header_size), (unsigned long long)payload);
+        (unsigned long long)(mdat->size - mdat->header_size), (unsigned long long)(next - begin));
+}
+
+/** All tracks must hold the same frames. */
+static gvc_result check_same_frames(const gvc_parser *parser, const gvc_box *moof,
+                                    const track_run *run, gvc_error *error) {
+    const track_run *shape = &run[GVC_TRACK_SHAPE];
+    for (unsigned kind = 0; kind < GVC_TRACK_KINDS; kind++) {
+        if (!parser->demux->has_track[kind] ||
+            (run[kind].first_frame == shape->first_frame && run[kind].count == shape->count)) {
+            continue;
+        }
+        return gvc_box_fail(moof, error, GVC_ERROR_CORRUPT,
+                            "%u images from frame %llu, but %u shape records from frame %llu",
+                            run[kind].count, (unsigned long long)run[kind].first_frame,
+                            shape->count, (unsigned long long)shape->first_frame);
+    }
+    return GVC_OK;
 }
 
 /** Frames must go on where those before ended. With keep_going a gap is damage and only frames
  * that come again are refused. */
-static gvc_result check_frames(gvc_parser *parser, const gvc_box *moof, const track_run *run,
+static gvc_result check_frames(gvc_parser *parser, const gvc_box *moof, const track_run *shape,
                                gvc_error *error) {
-    const track_run *geometry = &run[GVC_TRACK_GEOMETRY], *shape = &run[GVC_TRACK_SHAPE];
-    if (geometry->first_frame != shape->first_frame || geometry->count != shape->count) {
-        return gvc_box_fail(moof, error, GVC_ERROR_CORRUPT,
-                            "%u pictures from frame %llu, but %u shape records from frame %llu",
-                            geometry->count, (unsigned long long)geometry->first_frame,
-                            shape->count, (unsigned long long)shape->first_frame);
-    }
     uint64_t declared = parser->demux->config.declared_frames;
-    if (declared && geometry->first_frame + geometry->count > declared) {
-        return gvc_box_fail(moof, error, GVC_ERROR_CORRUPT,
-                            "frames %llu + %u, but the file declares %llu",
-                            (unsigned long long)geometry->first_frame, geometry->count,
-                            (unsigned long long)declared);
+    if (declared && shape->first_frame + shape->count > declared) {
+        return gvc_box_fail(
+            moof, error, GVC_ERROR_CORRUPT, "frames %llu + %u, but the file declares %llu",
+            (unsigned long long)shape->first_frame, shape->count, (unsigned long long)declared);
     }
-    if (geometry->first_frame == parser->next_frame) return GVC_OK;
+    if (shape->first_frame == parser->next_frame) return GVC_OK;
     gvc_error gap;
     gvc_error_init(&gap);
     gvc_result result = gvc_box_fail(
         moof, &gap, GVC_ERROR_CORRUPT, "frame %llu follows, expected %llu",
-        (unsigned long long)geometry->first_frame, (unsigned long long)parser->next_frame);
-    if (!parser->options->keep_going || geometry->first_frame < parser->next_frame) {
+        (unsigned long long)shape->first_frame, (unsigned long long)parser->next_frame);
+    if (!parser->options->keep_going || shape->first_frame < parser->next_frame) {
         if (error) *error = gap;
         return result;
     }
@@ -290,8 +306,8 @@ static gvc_result keep_fragment(gvc_parser *parser, const gvc_box *moof, const g
     gvc_fragment_entry *fragment = &demux->fragment[demux->fragment_count++];
     *fragment = (gvc_fragment_entry){.offset = moof->offset,
                                      .size = moof->size + mdat->size,
-                                     .first_frame = run[GVC_TRACK_GEOMETRY].first_frame,
-                                     .frame_count = run[GVC_TRACK_GEOMETRY].count};
+                                     .first_frame = run[GVC_TRACK_SHAPE].first_frame,
+                                     .frame_count = run[GVC_TRACK_SHAPE].count};
     for (unsigned kind = 0; kind < GVC_TRACK_KINDS; kind++) {
         fragment->first_sample[kind] = demux->sample_count[kind];
         demux->sample_count[kind] += run[kind].count;
@@ -328,7 +344,8 @@ gvc_result gvc_parse_fragment(gvc_parser *parser, gvc_box *moof, uint64_t *end, 
         return gvc_box_fail(moof, error, GVC_ERROR_CORRUPT,
                             "moof does not end with its checksum (gcrc)");
     }
-    GVC_TRY(check_data(moof, &mdat, run, error));
-    GVC_TRY(check_frames(parser, moof, run, error));
+    GVC_TRY(check_data(parser, moof, &mdat, run, error));
+    GVC_TRY(check_same_frames(parser, moof, run, error));
+    GVC_TRY(check_frames(parser, moof, &run[GVC_TRACK_SHAPE], error));
     return keep_fragment(parser, moof, &mdat, run, error);
 }

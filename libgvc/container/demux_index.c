@@ -28,13 +28,13 @@ static uint32_t read_number(gvc_cursor *cursor, unsigned size) {
     return value;
 }
 
-/** Whether the next entry points at the first sample of a fragment's geometry. */
+/** Whether the next entry points at the first sample of a fragment's main track. */
 static bool entry_matches(const gvc_parser *parser, const gvc_fragment_entry *fragment,
                           gvc_cursor *cursor, uint8_t version, uint32_t sizes) {
     const gvc_demux *demux = parser->demux;
-    const gvc_sample_entry *first =
-        &demux->sample[GVC_TRACK_GEOMETRY][fragment->first_sample[GVC_TRACK_GEOMETRY]];
-    uint64_t shown = first->presentation + parser->track[GVC_TRACK_GEOMETRY].shown_later;
+    gvc_track_kind main = gvc_demux_main(demux);
+    const gvc_sample_entry *first = &demux->sample[main][fragment->first_sample[main]];
+    uint64_t shown = first->presentation + parser->track[main].shown_later;
     uint64_t time = version == 1 ? gvc_read_u64(cursor) : gvc_read_u32(cursor);
     uint64_t offset = version == 1 ? gvc_read_u64(cursor) : gvc_read_u32(cursor);
     read_number(cursor, (sizes >> 4 & 3) + 1); /* number of traf: they may stand in any order */
@@ -80,7 +80,7 @@ gvc_result gvc_parse_index(gvc_parser *parser, gvc_box *mfra, gvc_error *error) 
         GVC_TRY(gvc_box_version(&tfra, 1, &version, &flags, error));
         uint32_t track_id = gvc_read_u32(&tfra.content);
         GVC_TRY(gvc_box_check(&tfra, error));
-        if (gvc_parser_kind(parser, track_id) != GVC_TRACK_GEOMETRY) continue;
+        if (gvc_parser_kind(parser, track_id) != gvc_demux_main(parser->demux)) continue;
         if (found) return gvc_box_fail(&tfra, error, GVC_ERROR_CORRUPT, "a second tfra");
         found = true;
         /* After damage the index must name fragments that are lost: nothing to learn. */
@@ -90,7 +90,8 @@ gvc_result gvc_parse_index(gvc_parser *parser, gvc_box *mfra, gvc_error *error) 
         }
     }
     if (!found) {
-        return gvc_box_fail(mfra, error, GVC_ERROR_CORRUPT, "the geometry track has no tfra");
+        return gvc_box_fail(mfra, error, GVC_ERROR_CORRUPT, "the %s track has no tfra",
+                            parser->demux->has_track[GVC_TRACK_GEOMETRY] ? "geometry" : "exact");
     }
     parser->closed = true;
     return GVC_OK;

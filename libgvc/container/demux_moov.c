@@ -7,8 +7,8 @@
 
 /** What matters of a track. */
 typedef struct track_facts {
-    bool is_geometry, is_shape;
-    bool is_avc; /**< avc1, whether or not it is ours */
+    gvc_track_kind kind; /**< GVC_TRACK_KINDS: not ours */
+    bool is_avc;         /**< avc1, whether or not it is ours */
     uint32_t track_id, timescale, described_track;
     uint64_t media_time; /**< composition time at which the edit list lets the movie begin */
     gvc_box avcc, gvcc;
@@ -38,28 +38,39 @@ static gvc_result read_handler(const gvc_box *mdia, uint32_t *handler, gvc_error
     return gvc_box_check(&hdlr, error);
 }
 
-/** Tells whether the `uri ` box names shape records. */
-static gvc_result read_uri(const gvc_box *urim, bool *is_shape, gvc_error *error) {
+/** Tracks known by the URI of their sample entry. */
+static const struct {
+    gvc_track_kind kind;
+    const char *stem, *uri, *what;
+} known_uri[] = {
+    {GVC_TRACK_SHAPE, GVC_SHAPE_URI_STEM, GVC_SHAPE_URI, "shape records"},
+    {GVC_TRACK_EXACT, GVC_EXACT_URI_STEM, GVC_EXACT_URI, "exact images"},
+};
+
+/** Finds out from the `uri ` box which track this is. */
+static gvc_result read_uri(const gvc_box *urim, gvc_track_kind *kind, gvc_error *error) {
     gvc_box uri;
     uint8_t version;
     uint32_t flags;
-    *is_shape = false;
     GVC_TRY(gvc_box_find(urim, GVC_BOX_URI, false, &uri, error));
     if (!uri.type) return GVC_OK;
     GVC_TRY(gvc_box_version(&uri, 0, &version, &flags, error));
     size_t size = gvc_cursor_left(&uri.content);
     const char *text = (const char *)gvc_read_bytes(&uri.content, size);
-    size_t stem = sizeof GVC_SHAPE_URI_STEM - 1;
-    if (size <= stem || memcmp(text, GVC_SHAPE_URI_STEM, stem) != 0) return GVC_OK;
-    if (size != sizeof GVC_SHAPE_URI || memcmp(text, GVC_SHAPE_URI, size) != 0) {
-        return gvc_box_fail(&uri, error, GVC_ERROR_UNSUPPORTED,
-                            "shape records of another version than \"%s\"", GVC_SHAPE_URI);
+    for (size_t i = 0; i < sizeof known_uri / sizeof *known_uri; i++) {
+        size_t stem = strlen(known_uri[i].stem), whole = strlen(known_uri[i].uri) + 1;
+        if (size <= stem || memcmp(text, known_uri[i].stem, stem) != 0) continue;
+        if (size != whole || memcmp(text, known_uri[i].uri, whole) != 0) {
+            return gvc_box_fail(&uri, error, GVC_ERROR_UNSUPPORTED,
+                                "%s of another version than \"%s\"", known_uri[i].what,
+                                known_uri[i].uri);
+        }
+        *kind = known_uri[i].kind;
     }
-    *is_shape = true;
     return GVC_OK;
 }
 
-/** A track is ours if its only sample entry is avc1 with gvcC, or urim with the shape's URI. */
+/** A track is ours if its only sample entry is avc1 with gvcC, or urim with a URI of ours. */
 static gvc_result read_sample_entry(const gvc_box *stbl, uint32_t handler, track_facts *facts,
                                     gvc_error *error) {
     gvc_box stsd, entry;
@@ -74,14 +85,16 @@ static gvc_result read_sample_entry(const gvc_box *stbl, uint32_t handler, track
         GVC_TRY(gvc_box_check(&entry, error));
         facts->is_avc = true;
         GVC_TRY(gvc_box_find(&entry, GVC_BOX_GVCC, false, &facts->gvcc, error));
-        facts->is_geometry = facts->gvcc.type != 0;
-        if (!facts->is_geometry) return GVC_OK;
+        if (facts->gvcc.type == 0) return GVC_OK;
+        facts->kind = GVC_TRACK_GEOMETRY;
         return gvc_box_find(&entry, GVC_BOX_AVCC, true, &facts->avcc, error);
     }
     if (handler == GVC_HANDLER_META && entry.type == GVC_BOX_URIM) {
         gvc_skip(&entry.content, GVC_URIM_FIELDS);
         GVC_TRY(gvc_box_check(&entry, error));
-        return read_uri(&entry, &facts->is_shape, error);
+        GVC_TRY(read_uri(&entry, &facts->kind, error));
+        if (facts->kind != GVC_TRACK_EXACT) return GVC_OK;
+        return gvc_box_find(&entry, GVC_BOX_GVCC, false, &facts->gvcc, error);
     }
     return GVC_OK;
 }
@@ -125,13 +138,13 @@ static gvc_result read_edit(const gvc_box *trak, uint64_t *media_time, gvc_error
 static gvc_result read_track(const gvc_box *trak, track_facts *facts, gvc_error *error) {
     gvc_box mdia, minf, stbl, tref, cdsc;
     uint32_t handler;
-    *facts = (track_facts){0};
+    *facts = (track_facts){.kind = GVC_TRACK_KINDS};
     GVC_TRY(gvc_box_find(trak, GVC_BOX_MDIA, true, &mdia, error));
     GVC_TRY(read_handler(&mdia, &handler, error));
     GVC_TRY(gvc_box_find(&mdia, GVC_BOX_MINF, true, &minf, error));
     GVC_TRY(gvc_box_find(&minf, GVC_BOX_STBL, true, &stbl, error));
     GVC_TRY(read_sample_entry(&stbl, handler, facts, error));
-    if (!facts->is_geometry && !facts->is_shape) return GVC_OK;
+    if (facts->kind == GVC_TRACK_KINDS) return GVC_OK;
     GVC_TRY(read_after_times(trak, GVC_BOX_TKHD, &facts->track_id, error));
     GVC_TRY(read_after_times(&mdia, GVC_BOX_MDHD, &facts->timescale, error));
     GVC_TRY(read_edit(trak, &facts->media_time, error));
@@ -139,39 +152,43 @@ static gvc_result read_track(const gvc_box *trak, track_facts *facts, gvc_error 
     if (facts->track_id == 0) {
         return gvc_box_fail(trak, error, GVC_ERROR_CORRUPT, "a track has the number 0");
     }
-    if (facts->is_geometry) return GVC_OK;
+    if (facts->kind != GVC_TRACK_SHAPE) return GVC_OK;
     GVC_TRY(gvc_box_find(trak, GVC_BOX_TREF, true, &tref, error));
     GVC_TRY(gvc_box_find(&tref, GVC_BOX_CDSC, true, &cdsc, error));
     facts->described_track = gvc_read_u32(&cdsc.content);
     return gvc_box_check(&cdsc, error);
 }
 
-static gvc_result read_tracks(const gvc_box *moov, track_facts *geometry, track_facts *shape,
+static gvc_result read_tracks(const gvc_box *moov, track_facts track[GVC_TRACK_KINDS],
                               bool *has_avc, gvc_error *error) {
+    static const char *const name[GVC_TRACK_KINDS] = {"geometry", "shape", "exact"};
     gvc_box rest = *moov, trak;
-    *geometry = *shape = (track_facts){0};
     *has_avc = false;
+    for (unsigned kind = 0; kind < GVC_TRACK_KINDS; kind++) track[kind] = (track_facts){0};
     while (gvc_cursor_left(&rest.content)) {
         track_facts facts;
         GVC_TRY(gvc_box_next(&rest, &trak, error));
         if (trak.type != GVC_BOX_TRAK) continue;
         GVC_TRY(read_track(&trak, &facts, error));
-        if ((facts.is_geometry && geometry->is_geometry) || (facts.is_shape && shape->is_shape)) {
-            return gvc_box_fail(&trak, error, GVC_ERROR_CORRUPT, "a second %s track",
-                                facts.is_shape ? "shape" : "geometry");
-        }
         if (facts.is_avc) *has_avc = true;
-        if (facts.is_geometry) *geometry = facts;
-        if (facts.is_shape) *shape = facts;
+        if (facts.kind == GVC_TRACK_KINDS) continue;
+        if (track[facts.kind].track_id) {
+            return gvc_box_fail(&trak, error, GVC_ERROR_CORRUPT, "a second %s track",
+                                name[facts.kind]);
+        }
+        track[facts.kind] = facts;
     }
     return GVC_OK;
 }
 
-static gvc_result check_tracks(const gvc_box *moov, const track_facts *geometry,
-                               const track_facts *shape, bool has_avc, bool has_brand,
-                               gvc_error *error) {
+/** Number 0 of a track: it is missing. */
+static gvc_result check_tracks(const gvc_box *moov, const track_facts track[GVC_TRACK_KINDS],
+                               bool has_avc, bool has_brand, gvc_error *error) {
+    const track_facts *shape = &track[GVC_TRACK_SHAPE], *exact = &track[GVC_TRACK_EXACT];
+    const track_facts *geometry = &track[GVC_TRACK_GEOMETRY];
+    const track_facts *described = geometry->track_id ? geometry : exact;
     /* Tools that drop the shape track may drop gvcC as well, or the brand, but hardly both. */
-    if (!shape->is_shape && (geometry->is_geometry || (has_avc && has_brand))) {
+    if (!shape->track_id && (described->track_id || (has_avc && has_brand))) {
         return gvc_box_fail(moov, error, GVC_ERROR_CORRUPT,
                             "the shape track is missing; a tool that copied only the video "
                             "dropped it");
@@ -179,14 +196,23 @@ static gvc_result check_tracks(const gvc_box *moov, const track_facts *geometry,
     if (!has_brand) {
         return gvc_box_fail(moov, error, GVC_ERROR_UNSUPPORTED, GVC_NO_BRAND_MESSAGE);
     }
-    if (!geometry->is_geometry) {
+    if (!described->track_id || !described->gvcc.type) {
         return gvc_box_fail(moov, error, GVC_ERROR_CORRUPT,
-                            "there is no geometry track (avc1 with gvcC)");
+                            "there is no geometry track (avc1 with gvcC) and no exact track with "
+                            "gvcC");
     }
-    if (shape->track_id == geometry->track_id || shape->described_track != geometry->track_id) {
+    for (unsigned a = 0; a < GVC_TRACK_KINDS; a++) {
+        for (unsigned b = 0; b < a; b++) {
+            if (!track[a].track_id || track[a].track_id != track[b].track_id) continue;
+            return gvc_box_fail(moov, error, GVC_ERROR_CORRUPT, "two tracks have the number %u",
+                                track[a].track_id);
+        }
+    }
+    if (shape->described_track != described->track_id) {
         return gvc_box_fail(moov, error, GVC_ERROR_CORRUPT,
-                            "shape track %u describes track %u, the geometry track is %u",
-                            shape->track_id, shape->described_track, geometry->track_id);
+                            "shape track %u describes track %u, the %s track is %u",
+                            shape->track_id, shape->described_track,
+                            geometry->track_id ? "geometry" : "exact", described->track_id);
     }
     return GVC_OK;
 }
@@ -223,13 +249,25 @@ static gvc_result read_defaults(const gvc_box *mvex, gvc_track_defaults *track, 
                         track->track_id);
 }
 
-static gvc_result read_config(gvc_parser *parser, const track_facts *geometry, gvc_error *error) {
+/** A bit says what tracks there must be, so that one dropped is missed. */
+static gvc_result check_features(const gvc_demux *demux, gvc_box *gvcc, gvc_error *error) {
+    bool wanted = demux->config.features & GVC_FEATURE_EXACT;
+    if (wanted == demux->has_track[GVC_TRACK_EXACT]) return GVC_OK;
+    return gvc_box_fail(gvcc, error, GVC_ERROR_CORRUPT,
+                        wanted ? "the exact track is missing; a tool that copied only the video "
+                                 "dropped it"
+                               : "an exact track that gvcC does not tell of");
+}
+
+/** Reads gvcC, which stands in the main track, and avcC if that is the geometry track. */
+static gvc_result read_config(gvc_parser *parser, const track_facts *described, gvc_error *error) {
     gvc_demux *demux = parser->demux;
-    gvc_box gvcc = geometry->gvcc, avcc = geometry->avcc;
+    gvc_box gvcc = described->gvcc, avcc = described->avcc;
     gvc_error defect;
     gvc_error_init(&defect);
     gvc_result result = gvc_config_read(&gvcc.content, &demux->config, &defect);
     if (result != GVC_OK) return gvc_box_fail(&gvcc, error, result, "%s", defect.message);
+    GVC_TRY(check_features(demux, &gvcc, error));
     const gvc_config *config = &demux->config;
     if (config->image_size > parser->options->max_image_size) {
         return gvc_box_fail(&gvcc, error, GVC_ERROR_LIMIT,
@@ -247,6 +285,7 @@ static gvc_result read_config(gvc_parser *parser, const track_facts *geometry, g
                             (unsigned long long)config->declared_frames,
                             (unsigned long long)parser->options->max_frames);
     }
+    if (!demux->has_track[GVC_TRACK_GEOMETRY]) return GVC_OK;
     size_t size = gvc_cursor_left(&avcc.content), capacity = 0;
     GVC_TRY(gvc_parser_grow(parser, (void **)&demux->avc_config, &capacity, size, 1, error));
     if (size) memcpy(demux->avc_config, gvc_read_bytes(&avcc.content, size), size);
@@ -271,23 +310,29 @@ static gvc_result keep_track(gvc_parser *parser, const gvc_box *moov, const trac
 
 static gvc_result read_content(gvc_parser *parser, const gvc_box *moov, bool has_brand,
                                gvc_error *error) {
-    track_facts geometry, shape;
+    track_facts track[GVC_TRACK_KINDS];
+    gvc_demux *demux = parser->demux;
     gvc_box mvex;
     bool has_avc;
-    GVC_TRY(read_tracks(moov, &geometry, &shape, &has_avc, error));
-    GVC_TRY(check_tracks(moov, &geometry, &shape, has_avc, has_brand, error));
-    GVC_TRY(read_config(parser, &geometry, error));
-    uint32_t timescale = parser->demux->config.frame_rate_num;
-    if (geometry.timescale != timescale || shape.timescale != timescale) {
-        return gvc_box_fail(moov, error, GVC_ERROR_CORRUPT,
-                            "timescales %u and %u; the frame rate asks for %u", geometry.timescale,
-                            shape.timescale, timescale);
+    GVC_TRY(read_tracks(moov, track, &has_avc, error));
+    GVC_TRY(check_tracks(moov, track, has_avc, has_brand, error));
+    for (unsigned kind = 0; kind < GVC_TRACK_KINDS; kind++) {
+        demux->has_track[kind] = track[kind].track_id != 0;
     }
-    GVC_TRY(keep_track(parser, moov, &geometry, GVC_TRACK_GEOMETRY, error));
-    GVC_TRY(keep_track(parser, moov, &shape, GVC_TRACK_SHAPE, error));
+    GVC_TRY(read_config(parser, &track[gvc_demux_main(demux)], error));
     GVC_TRY(gvc_box_find(moov, GVC_BOX_MVEX, true, &mvex, error));
-    GVC_TRY(read_defaults(&mvex, &parser->track[GVC_TRACK_GEOMETRY], error));
-    return read_defaults(&mvex, &parser->track[GVC_TRACK_SHAPE], error);
+    for (unsigned kind = 0; kind < GVC_TRACK_KINDS; kind++) {
+        if (!demux->has_track[kind]) continue;
+        if (track[kind].timescale != demux->config.frame_rate_num) {
+            return gvc_box_fail(moov, error, GVC_ERROR_CORRUPT,
+                                "track %u has timescale %u; the frame rate asks for %u",
+                                track[kind].track_id, track[kind].timescale,
+                                demux->config.frame_rate_num);
+        }
+        GVC_TRY(keep_track(parser, moov, &track[kind], (gvc_track_kind)kind, error));
+        GVC_TRY(read_defaults(&mvex, &parser->track[kind], error));
+    }
+    return GVC_OK;
 }
 
 gvc_result gvc_parse_moov(gvc_parser *parser, gvc_box *moov, bool has_brand, gvc_error *error) {

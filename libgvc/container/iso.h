@@ -69,6 +69,9 @@
 /** What a sample of the shape track is. The number after the last colon is the major version. */
 #define GVC_SHAPE_URI_STEM "urn:gvc:shape:"
 #define GVC_SHAPE_URI GVC_SHAPE_URI_STEM "0"
+/** And what one of the exact track is. */
+#define GVC_EXACT_URI_STEM "urn:gvc:exact:"
+#define GVC_EXACT_URI GVC_EXACT_URI_STEM "0"
 
 #define GVC_GCRC_SIZE 16u   /**< of a whole gcrc box: header, version and flags, CRC-32 */
 #define GVC_MFRO_SIZE 16u   /**< of a whole mfro box: header, version and flags, size of mfra */

@@ -6,10 +6,11 @@
 #include "container/shape_record.h"
 
 /* Bits of the first byte of a record. */
-#define GVC_RECORD_SAME 0x01u  /**< no body: charts as in the frame before */
-#define GVC_RECORD_NAMED 0x02u /**< a label with the source's name follows the digest */
-#define GVC_RECORD_ZSTD 0x04u  /**< the body is one zstd frame */
-#define GVC_RECORD_KNOWN 0x07u
+#define GVC_RECORD_SAME 0x01u    /**< no body: charts as in the frame before */
+#define GVC_RECORD_NAMED 0x02u   /**< a label with the source's name follows the digest */
+#define GVC_RECORD_ZSTD 0x04u    /**< the body is one zstd frame */
+#define GVC_RECORD_PREVIEW 0x08u /**< a second digest, that of the preview, follows the first */
+#define GVC_RECORD_KNOWN 0x0fu
 
 #define GVC_NODE_KINDS 3u
 #define GVC_NODE_KIND_EXTREMUM 1u

@@ -72,8 +72,12 @@ static gvc_result compress_body(const gvc_buffer *body, gvc_buffer *packed, gvc_
 static void write_head(const gvc_shape_frame *frame, unsigned flags, gvc_buffer *buffer) {
     if (frame->same) flags |= GVC_RECORD_SAME;
     if (frame->source[0]) flags |= GVC_RECORD_NAMED;
+    if (frame->has_preview) flags |= GVC_RECORD_PREVIEW;
     gvc_write_u8(buffer, (uint8_t)flags);
     gvc_write_bytes(buffer, frame->digest, sizeof frame->digest);
+    if (frame->has_preview) {
+        gvc_write_bytes(buffer, frame->preview_digest, sizeof frame->preview_digest);
+    }
     if (frame->source[0]) gvc_write_label(buffer, frame->source, sizeof frame->source);
 }
 

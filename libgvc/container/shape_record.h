@@ -16,8 +16,9 @@
  * big-endian; a label is a length (u8) and that many bytes of UTF-8 without control characters.
  *
  *   type        field
- *   u8          flags: 1 same, 2 named, 4 zstd; others 0. "same" excludes "zstd"
+ *   u8          flags: 1 same, 2 named, 4 zstd, 8 preview; others 0. "same" excludes "zstd"
  *   u8[8]       digest
+ *   u8[8]       digest of the preview            only with "preview"
  *   label       source, 1 to 63 bytes            only with "named"
  *   ...         body, up to the end of the sample; absent with "same". With "zstd" it is one zstd
  *               frame (RFC 8878) with its content size, and the following is what it expands to
@@ -76,8 +77,10 @@ typedef struct gvc_shape_frame {
     bool same;         /**< charts as in the frame before */
     uint8_t digest[8]; /**< first bytes of the SHA-256 of the welded codes and faces of all charts,
                           one chart after the other: spec 10.3 */
-    char source[64];   /**< UTF-8 name of the original frame, may be empty; bytes that a label may
-                          not hold are written as '?' */
+    bool has_preview;  /**< the file has an exact track, which `digest` is of, and H.264 too */
+    uint8_t preview_digest[8]; /**< of the frame as its H.264 picture gives it */
+    char source[64]; /**< UTF-8 name of the original frame, may be empty; bytes that a label may
+                        not hold are written as '?' */
 } gvc_shape_frame;
 
 void gvc_shape_free(gvc_shape *shape);

@@ -193,6 +193,11 @@ static gvc_result read_head(gvc_cursor *cursor, gvc_shape_frame *frame, unsigned
     frame->same = *flags & GVC_RECORD_SAME;
     const uint8_t *digest = gvc_read_bytes(cursor, sizeof frame->digest);
     if (digest) memcpy(frame->digest, digest, sizeof frame->digest);
+    frame->has_preview = *flags & GVC_RECORD_PREVIEW;
+    if (frame->has_preview) {
+        digest = gvc_read_bytes(cursor, sizeof frame->preview_digest);
+        if (digest) memcpy(frame->preview_digest, digest, sizeof frame->preview_digest);
+    }
     if (cursor->failed) {
         return gvc_fail(error, GVC_ERROR_CORRUPT, "%zu bytes are too few for a shape record",
                         cursor->size);

@@ -20,6 +20,7 @@ typedef struct index_entry {
 struct gvc_writer {
     gvc_sink sink;
     uint32_t frame_duration;
+    bool has_geometry, has_exact;
     uint64_t declared_frames, next_frame, byte_count;
     uint32_t sequence;
     gvc_buffer buffer; /**< the box being put together */
@@ -61,10 +62,16 @@ gvc_result gvc_writer_create(const gvc_sink *sink, const gvc_config *config,
     gvc_writer *made = gvc_alloc(1, sizeof *made);
     if (!made) return gvc_fail_memory(error);
     *made = (gvc_writer){.sink = *sink,
+                         .has_geometry = avc_config != NULL,
+                         .has_exact = config->features & GVC_FEATURE_EXACT,
                          .frame_duration = config->frame_rate_den,
                          .declared_frames = config->declared_frames};
     gvc_result result;
     GVC_CHECK(check_config(config, &made->buffer, error));
+    if (!made->has_geometry && !made->has_exact) {
+        result = gvc_fail(error, GVC_ERROR_ARGUMENT, "a file without geometry images");
+        goto cleanup;
+    }
     gvc_write_head(config, avc_config, avc_config_size, &made->buffer);
     GVC_CHECK(put_buffer(made, error));
     *writer = made;
@@ -120,14 +127,37 @@ static gvc_result check_order(const gvc_writer *writer, uint32_t track, const gv
     return result;
 }
 
+/** One track of a fragment. */
+typedef struct track_run {
+    uint32_t track;
+    const gvc_sample *sample;
+    uint64_t byte_count;
+    size_t data_offset; /**< place of its data offset in the moof being built */
+} track_run;
+
+#define MOST_TRACKS 3u
+
+/** The tracks of a fragment, in the order of their trafs; returns how many. */
+static size_t list_runs(const gvc_fragment *fragment, track_run run[MOST_TRACKS]) {
+    size_t count = 0;
+    if (fragment->geometry)
+        run[count++] = (track_run){GVC_GEOMETRY_TRACK, fragment->geometry, 0, 0};
+    run[count++] = (track_run){GVC_SHAPE_TRACK, fragment->shape, 0, 0};
+    if (fragment->exact) run[count++] = (track_run){GVC_EXACT_TRACK, fragment->exact, 0, 0};
+    return count;
+}
+
 /** Only the first samples are sync samples, and only the first frame has a whole shape record.
  * Sizes must have been checked. */
-static gvc_result check_first(const gvc_fragment *fragment, gvc_error *error) {
+static gvc_result check_first(const gvc_fragment *fragment, const track_run *run, size_t run_count,
+                              gvc_error *error) {
     for (size_t i = 0; i < fragment->frame_count; i++) {
         const gvc_sample *shape = &fragment->shape[i];
         bool first = i == 0, whole = !(shape->data[0] & GVC_RECORD_SAME);
         bool first_shown = (int64_t)i + shape->composition_offset == 0;
-        if (fragment->geometry[i].sync != first || shape->sync != first || whole != first_shown) {
+        bool sync_right = true;
+        for (size_t t = 0; t < run_count; t++) sync_right &= run[t].sample[i].sync == first;
+        if (!sync_right || whole != first_shown) {
             return gvc_fail(error, GVC_ERROR_ARGUMENT,
                             "sample %zu: a fragment has one sync sample in each track and one "
                             "whole shape record, the first",
@@ -138,11 +168,13 @@ static gvc_result check_first(const gvc_fragment *fragment, gvc_error *error) {
 }
 
 static gvc_result check_fragment(const gvc_writer *writer, const gvc_fragment *fragment,
-                                 uint64_t *shape_bytes, uint64_t *geometry_bytes,
-                                 gvc_error *error) {
+                                 track_run *run, size_t run_count, gvc_error *error) {
     size_t count = fragment->frame_count;
     if (writer->closed) {
         return gvc_fail(error, GVC_ERROR_ARGUMENT, "the file is finished, or writing it failed");
+    }
+    if (!fragment->geometry == writer->has_geometry || !fragment->exact == writer->has_exact) {
+        return gvc_fail(error, GVC_ERROR_ARGUMENT, "a fragment of other tracks than the file's");
     }
     if (fragment->first_frame != writer->next_frame || count == 0 || count > INT32_MAX) {
         return gvc_fail(error, GVC_ERROR_ARGUMENT,
@@ -154,11 +186,14 @@ static gvc_result check_fragment(const gvc_writer *writer, const gvc_fragment *f
         return gvc_fail(error, GVC_ERROR_LIMIT, "frame %llu does not fit in time",
                         (unsigned long long)fragment->first_frame);
     }
-    GVC_TRY(sum_sizes(fragment->shape, count, shape_bytes, error));
-    GVC_TRY(sum_sizes(fragment->geometry, count, geometry_bytes, error));
-    GVC_TRY(check_first(fragment, error));
-    GVC_TRY(check_order(writer, GVC_SHAPE_TRACK, fragment->shape, count, error));
-    return check_order(writer, GVC_GEOMETRY_TRACK, fragment->geometry, count, error);
+    for (size_t t = 0; t < run_count; t++) {
+        GVC_TRY(sum_sizes(run[t].sample, count, &run[t].byte_count, error));
+    }
+    GVC_TRY(check_first(fragment, run, run_count, error));
+    for (size_t t = 0; t < run_count; t++) {
+        GVC_TRY(check_order(writer, run[t].track, run[t].sample, count, error));
+    }
+    return GVC_OK;
 }
 
 /** Flags of trun, as few fields per sample as tell all. Flags of samples but the first are those of
@@ -211,32 +246,48 @@ static size_t write_traf(const gvc_writer *writer, uint32_t track, const gvc_sam
     return data_offset;
 }
 
-/** Builds moof and the header of mdat. In mdat the shape records come first: they are small, and a
- * receiver then has the weld of every frame when its picture arrives, so that each picture can be
- * shown at once instead of after the whole group. */
-static gvc_result build_moof(gvc_writer *writer, const gvc_fragment *fragment, uint64_t shape_bytes,
-                             uint64_t geometry_bytes, gvc_error *error) {
+/** Order of the tracks in mdat. Shape records come first: they are small, and a receiver then has
+ * the weld of every frame when its picture arrives, so that each picture can be shown at once
+ * instead of after the whole group. */
+static const uint32_t data_order[MOST_TRACKS] = {GVC_SHAPE_TRACK, GVC_GEOMETRY_TRACK,
+                                                 GVC_EXACT_TRACK};
+
+/** The run of a track, or NULL. */
+static track_run *run_of(track_run *run, size_t run_count, uint32_t track) {
+    for (size_t t = 0; t < run_count; t++) {
+        if (run[t].track == track) return &run[t];
+    }
+    return NULL;
+}
+
+/** Builds moof and the header of mdat. */
+static gvc_result build_moof(gvc_writer *writer, const gvc_fragment *fragment, track_run *run,
+                             size_t run_count, gvc_error *error) {
     gvc_buffer *buffer = &writer->buffer;
     gvc_buffer_clear(buffer);
     size_t moof = gvc_box_begin(buffer, GVC_BOX_MOOF);
     size_t mfhd = gvc_box_begin_full(buffer, GVC_BOX_MFHD, 0, 0);
     gvc_write_u32(buffer, writer->sequence + 1);
     gvc_box_end(buffer, mfhd);
-    size_t geometry =
-        write_traf(writer, GVC_GEOMETRY_TRACK, fragment->geometry, fragment->frame_count, buffer);
-    size_t shape =
-        write_traf(writer, GVC_SHAPE_TRACK, fragment->shape, fragment->frame_count, buffer);
-    uint64_t payload = shape_bytes + geometry_bytes;
-    uint32_t mdat_header = payload + 8 > UINT32_MAX ? 16 : 8;
-    uint64_t moof_size = (uint64_t)buffer->size + GVC_GCRC_SIZE;
-    uint64_t shape_offset = moof_size + mdat_header;
-    if (shape_offset + shape_bytes > INT32_MAX) {
-        return gvc_fail(error, GVC_ERROR_LIMIT, "%llu bytes of shape records in one fragment",
-                        (unsigned long long)shape_bytes);
+    uint64_t payload = 0;
+    for (size_t t = 0; t < run_count; t++) {
+        run[t].data_offset =
+            write_traf(writer, run[t].track, run[t].sample, fragment->frame_count, buffer);
+        payload += run[t].byte_count;
     }
+    uint32_t mdat_header = payload + 8 > UINT32_MAX ? 16 : 8;
+    uint64_t moof_size = (uint64_t)buffer->size + GVC_GCRC_SIZE, next = moof_size + mdat_header;
     gvc_patch_u32(buffer, moof, (uint32_t)moof_size);
-    gvc_patch_u32(buffer, shape, (uint32_t)shape_offset);
-    gvc_patch_u32(buffer, geometry, (uint32_t)(shape_offset + shape_bytes));
+    for (size_t i = 0; i < MOST_TRACKS; i++) {
+        const track_run *at = run_of(run, run_count, data_order[i]);
+        if (!at) continue;
+        if (next > INT32_MAX) {
+            return gvc_fail(error, GVC_ERROR_LIMIT, "%llu bytes of samples in one fragment",
+                            (unsigned long long)payload);
+        }
+        gvc_patch_u32(buffer, at->data_offset, (uint32_t)next);
+        next += at->byte_count;
+    }
     gvc_box_write_crc(buffer, moof, 0);
     gvc_write_u32(buffer, mdat_header == 16 ? 1 : (uint32_t)(payload + 8));
     gvc_write_u32(buffer, GVC_BOX_MDAT);
@@ -252,22 +303,32 @@ static gvc_result put_samples(gvc_writer *writer, const gvc_sample *sample, size
     return GVC_OK;
 }
 
+/** The track that the index points at. Its traf is the first, or, alone with that of the shape
+ * track, the second. */
+static uint32_t main_track(const gvc_writer *writer) {
+    return writer->has_geometry ? GVC_GEOMETRY_TRACK : GVC_EXACT_TRACK;
+}
+
 gvc_result gvc_writer_fragment(gvc_writer *writer, const gvc_fragment *fragment, gvc_error *error) {
-    uint64_t shape_bytes = 0, geometry_bytes = 0;
-    GVC_TRY(check_fragment(writer, fragment, &shape_bytes, &geometry_bytes, error));
-    GVC_TRY(build_moof(writer, fragment, shape_bytes, geometry_bytes, error));
+    track_run run[MOST_TRACKS];
+    size_t run_count = list_runs(fragment, run);
+    GVC_TRY(check_fragment(writer, fragment, run, run_count, error));
+    GVC_TRY(build_moof(writer, fragment, run, run_count, error));
     if (!gvc_grow((void **)&writer->entry, &writer->entry_capacity, writer->entry_count + 1,
                   sizeof *writer->entry)) {
         return gvc_fail_memory(error);
     }
-    int64_t shown = offset_ticks(writer, GVC_GEOMETRY_TRACK, &fragment->geometry[0]);
+    const gvc_sample *first = fragment->geometry ? fragment->geometry : fragment->exact;
+    int64_t shown = offset_ticks(writer, main_track(writer), &first[0]);
     writer->entry[writer->entry_count] =
         (index_entry){.offset = writer->byte_count,
                       .time = fragment->first_frame * writer->frame_duration + (uint64_t)shown};
     writer->closed = true; /* unless all of it gets out */
     GVC_TRY(put_buffer(writer, error));
-    GVC_TRY(put_samples(writer, fragment->shape, fragment->frame_count, error));
-    GVC_TRY(put_samples(writer, fragment->geometry, fragment->frame_count, error));
+    for (size_t i = 0; i < MOST_TRACKS; i++) {
+        const track_run *at = run_of(run, run_count, data_order[i]);
+        if (at) GVC_TRY(put_samples(writer, at->sample, fragment->frame_count, error));
+    }
     writer->closed = false;
     writer->entry_count++;
     writer->sequence++;
@@ -277,13 +338,15 @@ gvc_result gvc_writer_fragment(gvc_writer *writer, const gvc_fragment *fragment,
 
 static void write_tfra(const gvc_writer *writer, gvc_buffer *buffer) {
     size_t tfra = gvc_box_begin_full(buffer, GVC_BOX_TFRA, 1, 0);
-    gvc_write_u32(buffer, GVC_GEOMETRY_TRACK);
+    gvc_write_u32(buffer, main_track(writer));
     gvc_write_u32(buffer, 0); /* traf, trun and sample numbers take one byte each */
     gvc_write_u32(buffer, (uint32_t)writer->entry_count);
     for (size_t i = 0; i < writer->entry_count; i++) {
         gvc_write_u64(buffer, writer->entry[i].time);
         gvc_write_u64(buffer, writer->entry[i].offset);
-        for (unsigned k = 0; k < 3; k++) gvc_write_u8(buffer, 1);
+        gvc_write_u8(buffer, writer->has_geometry ? 1 : 2);
+        gvc_write_u8(buffer, 1);
+        gvc_write_u8(buffer, 1);
     }
     gvc_box_end(buffer, tfra);
 }

@@ -20,18 +20,20 @@ typedef struct gvc_sample {
     bool sync;                  /**< true for the first of a fragment, and only for it */
 } gvc_sample;
 
-/** One fragment: a group of frames. Both tracks have one sample per frame. */
+/** One fragment: a group of frames. Each track has one sample per frame. */
 typedef struct gvc_fragment {
     uint64_t first_frame; /**< decoding time of the first sample, in frames; fragments follow each
                              other without gap from 0 */
     size_t frame_count;
-    const gvc_sample *geometry; /**< in decoding order */
+    const gvc_sample *geometry; /**< in decoding order; NULL if there is no such track */
     const gvc_sample *shape; /**< in presentation order; the first record is whole, the others say
                                 "same" */
+    const gvc_sample *exact; /**< in presentation order; NULL if there is no such track */
 } gvc_fragment;
 
-/** Writes ftyp and moov at once. `avc_config` is the content of avcC. GVC_ERROR_ARGUMENT for a
- * configuration that gvc_config_read would refuse. */
+/** Writes ftyp and moov at once. `avc_config` is the content of avcC; NULL: there is no geometry
+ * track. There is an exact track if config->features say so. GVC_ERROR_ARGUMENT for a configuration
+ * that gvc_config_read would refuse, or if there is neither track. */
 gvc_result gvc_writer_create(const gvc_sink *sink, const gvc_config *config,
                              const uint8_t *avc_config, size_t avc_config_size, gvc_writer **writer,
                              gvc_error *error);

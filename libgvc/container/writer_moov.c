@@ -27,6 +27,11 @@ static void write_ftyp(gvc_buffer *buffer) {
 /* Times of creation stay 0 everywhere: the same input must give the same bytes. Durations are 0
  * too, because all samples are in fragments; mehd tells the whole one where it is known. */
 
+/** The last track's number. */
+static uint32_t last_track(const gvc_config *config) {
+    return config->features & GVC_FEATURE_EXACT ? GVC_EXACT_TRACK : GVC_SHAPE_TRACK;
+}
+
 static void write_mvhd(const gvc_config *config, gvc_buffer *buffer) {
     size_t box = gvc_box_begin_full(buffer, GVC_BOX_MVHD, 0, 0);
     write_zeros(buffer, 8); /* creation, modification */
@@ -37,7 +42,7 @@ static void write_mvhd(const gvc_config *config, gvc_buffer *buffer) {
     write_zeros(buffer, 10);
     write_matrix(buffer);
     write_zeros(buffer, 24);
-    gvc_write_u32(buffer, GVC_SHAPE_TRACK + 1); /* next free track number */
+    gvc_write_u32(buffer, last_track(config) + 1); /* next free track number */
     gvc_box_end(buffer, box);
 }
 
@@ -103,6 +108,12 @@ static void write_colr(gvc_buffer *buffer) {
     gvc_box_end(buffer, box);
 }
 
+static void write_gvcc(const gvc_config *config, gvc_buffer *buffer) {
+    size_t gvcc = gvc_box_begin(buffer, GVC_BOX_GVCC);
+    gvc_config_write(config, buffer);
+    gvc_box_end(buffer, gvcc);
+}
+
 static void write_avc1(const gvc_config *config, const uint8_t *avc_config, size_t avc_config_size,
                        gvc_buffer *buffer) {
     static const char compressor[32] = "\003gvc"; /* a Pascal string */
@@ -123,19 +134,20 @@ static void write_avc1(const gvc_config *config, const uint8_t *avc_config, size
     gvc_write_bytes(buffer, avc_config, avc_config_size);
     gvc_box_end(buffer, avcc);
     write_colr(buffer);
-    size_t gvcc = gvc_box_begin(buffer, GVC_BOX_GVCC);
-    gvc_config_write(config, buffer);
-    gvc_box_end(buffer, gvcc);
+    write_gvcc(config, buffer);
     gvc_box_end(buffer, avc1);
 }
 
-static void write_urim(gvc_buffer *buffer) {
+/** `uri` with its NUL takes `uri_size` bytes; `config` is NULL where gvcC stands elsewhere. */
+static void write_urim(const char *uri, size_t uri_size, const gvc_config *config,
+                       gvc_buffer *buffer) {
     size_t urim = gvc_box_begin(buffer, GVC_BOX_URIM);
     write_zeros(buffer, 6);
     gvc_write_u16(buffer, 1);
-    size_t uri = gvc_box_begin_full(buffer, GVC_BOX_URI, 0, 0);
-    gvc_write_bytes(buffer, GVC_SHAPE_URI, sizeof GVC_SHAPE_URI); /* with its NUL */
-    gvc_box_end(buffer, uri);
+    size_t box = gvc_box_begin_full(buffer, GVC_BOX_URI, 0, 0);
+    gvc_write_bytes(buffer, uri, uri_size);
+    gvc_box_end(buffer, box);
+    if (config) write_gvcc(config, buffer);
     gvc_box_end(buffer, urim);
 }
 
@@ -178,18 +190,13 @@ static void write_geometry_trak(const gvc_config *config, const uint8_t *avc_con
     gvc_box_end(buffer, trak);
 }
 
-static void write_shape_trak(const gvc_config *config, gvc_buffer *buffer) {
-    static const char name[] = "gvc shape records";
-    size_t trak = gvc_box_begin(buffer, GVC_BOX_TRAK);
-    write_tkhd(GVC_SHAPE_TRACK, 0, 0, buffer);
-    size_t tref = gvc_box_begin(buffer, GVC_BOX_TREF);
-    size_t cdsc = gvc_box_begin(buffer, GVC_BOX_CDSC);
-    gvc_write_u32(buffer, GVC_GEOMETRY_TRACK);
-    gvc_box_end(buffer, cdsc);
-    gvc_box_end(buffer, tref);
+/** From mdia on, of a track of timed metadata. */
+static void write_meta_mdia(const gvc_config *config, const char *name, size_t name_size,
+                            const char *uri, size_t uri_size, bool holds_config,
+                            gvc_buffer *buffer) {
     size_t mdia = gvc_box_begin(buffer, GVC_BOX_MDIA);
     write_mdhd(config, buffer);
-    write_hdlr(GVC_HANDLER_META, name, sizeof name, buffer);
+    write_hdlr(GVC_HANDLER_META, name, name_size, buffer);
     size_t minf = gvc_box_begin(buffer, GVC_BOX_MINF);
     size_t nmhd = gvc_box_begin_full(buffer, GVC_BOX_NMHD, 0, 0);
     gvc_box_end(buffer, nmhd);
@@ -197,12 +204,33 @@ static void write_shape_trak(const gvc_config *config, gvc_buffer *buffer) {
     size_t stbl = gvc_box_begin(buffer, GVC_BOX_STBL);
     size_t stsd = gvc_box_begin_full(buffer, GVC_BOX_STSD, 0, 0);
     gvc_write_u32(buffer, 1);
-    write_urim(buffer);
+    write_urim(uri, uri_size, holds_config ? config : NULL, buffer);
     gvc_box_end(buffer, stsd);
     write_empty_tables(buffer);
     gvc_box_end(buffer, stbl);
     gvc_box_end(buffer, minf);
     gvc_box_end(buffer, mdia);
+}
+
+static void write_shape_trak(const gvc_config *config, uint32_t described, gvc_buffer *buffer) {
+    static const char name[] = "gvc shape records";
+    size_t trak = gvc_box_begin(buffer, GVC_BOX_TRAK);
+    write_tkhd(GVC_SHAPE_TRACK, 0, 0, buffer);
+    size_t tref = gvc_box_begin(buffer, GVC_BOX_TREF);
+    size_t cdsc = gvc_box_begin(buffer, GVC_BOX_CDSC);
+    gvc_write_u32(buffer, described);
+    gvc_box_end(buffer, cdsc);
+    gvc_box_end(buffer, tref);
+    write_meta_mdia(config, name, sizeof name, GVC_SHAPE_URI, sizeof GVC_SHAPE_URI, false, buffer);
+    gvc_box_end(buffer, trak);
+}
+
+static void write_exact_trak(const gvc_config *config, bool is_main, gvc_buffer *buffer) {
+    static const char name[] = "gvc exact images";
+    size_t trak = gvc_box_begin(buffer, GVC_BOX_TRAK);
+    write_tkhd(GVC_EXACT_TRACK, 0, 0, buffer);
+    write_meta_mdia(config, name, sizeof name, GVC_EXACT_URI, sizeof GVC_EXACT_URI, is_main,
+                    buffer);
     gvc_box_end(buffer, trak);
 }
 
@@ -218,15 +246,16 @@ static void write_trex(uint32_t track, const gvc_config *config, gvc_buffer *buf
     gvc_box_end(buffer, box);
 }
 
-static void write_mvex(const gvc_config *config, gvc_buffer *buffer) {
+static void write_mvex(const gvc_config *config, bool has_geometry, gvc_buffer *buffer) {
     size_t mvex = gvc_box_begin(buffer, GVC_BOX_MVEX);
     if (config->declared_frames) {
         size_t mehd = gvc_box_begin_full(buffer, GVC_BOX_MEHD, 1, 0);
         gvc_write_u64(buffer, config->declared_frames * config->frame_rate_den);
         gvc_box_end(buffer, mehd);
     }
-    write_trex(GVC_GEOMETRY_TRACK, config, buffer);
+    if (has_geometry) write_trex(GVC_GEOMETRY_TRACK, config, buffer);
     write_trex(GVC_SHAPE_TRACK, config, buffer);
+    if (config->features & GVC_FEATURE_EXACT) write_trex(GVC_EXACT_TRACK, config, buffer);
     gvc_box_end(buffer, mvex);
 }
 
@@ -235,9 +264,10 @@ void gvc_write_head(const gvc_config *config, const uint8_t *avc_config, size_t 
     write_ftyp(buffer);
     size_t moov = gvc_box_begin(buffer, GVC_BOX_MOOV);
     write_mvhd(config, buffer);
-    write_geometry_trak(config, avc_config, avc_config_size, buffer);
-    write_shape_trak(config, buffer);
-    write_mvex(config, buffer);
+    if (avc_config) write_geometry_trak(config, avc_config, avc_config_size, buffer);
+    write_shape_trak(config, avc_config ? GVC_GEOMETRY_TRACK : GVC_EXACT_TRACK, buffer);
+    if (config->features & GVC_FEATURE_EXACT) write_exact_trak(config, !avc_config, buffer);
+    write_mvex(config, avc_config != NULL, buffer);
     /* The checksum is the last child and covers moov's own size, so its bytes are counted before
      * they are there. */
     if (!buffer->failed) {

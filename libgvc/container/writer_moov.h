@@ -8,6 +8,7 @@
 /* Track numbers as this writer gives them; a reader takes any. */
 #define GVC_GEOMETRY_TRACK 1u
 #define GVC_SHAPE_TRACK 2u
+#define GVC_EXACT_TRACK 3u
 
 /** Frames by which the geometry track is shown later than its composition offsets alone would ask
  * for; the edit list takes them back. Pictures that are shown before they are decoded would need
@@ -16,7 +17,8 @@
  * needs more still gets negative offsets. */
 #define GVC_SHOWN_LATER 2u
 
-/** Appends ftyp and moov to an empty buffer. `avc_config` is the content of avcC. */
+/** Appends ftyp and moov to an empty buffer. `avc_config` is the content of avcC; NULL: there is no
+ * geometry track. There is an exact track if config->features say so. */
 void gvc_write_head(const gvc_config *config, const uint8_t *avc_config, size_t avc_config_size,
                     gvc_buffer *buffer);
 

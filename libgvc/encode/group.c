@@ -15,7 +15,7 @@ static size_t picture_samples(const gvc_group *group) {
 
 gvc_result gvc_group_create(size_t capacity, gvc_picture_layout layout, gvc_group *group,
                             gvc_error *error) {
-    *group = (gvc_group){.layout = layout};
+    *group = (gvc_group){.layout = layout, .video = true};
     group->frame = gvc_alloc(capacity, sizeof *group->frame);
     if (!group->frame) return gvc_fail_memory(error);
     group->capacity = capacity;
@@ -26,6 +26,8 @@ void gvc_group_clear(gvc_group *group) {
     for (size_t i = 0; i < group->count; i++) {
         free(group->frame[i].luma);
         free(group->frame[i].decoded);
+        free(group->frame[i].codes);
+        gvc_buffer_free(&group->frame[i].exact);
         group->frame[i] = (gvc_group_frame){0};
     }
     group->count = 0;
@@ -103,9 +105,19 @@ gvc_result gvc_group_code(gvc_group *group, const gvc_encode_options *options, d
 
 /* --------------------------------------------------------------------------------------- write */
 
-/* Digest of the frame that a decoder will rebuild from `luma`. */
-static gvc_result digest_frame(const gvc_group *group, const uint16_t *luma, uint8_t digest[8],
-                               gvc_error *error) {
+void gvc_group_plane(const gvc_group *group, size_t index, gvc_code_source from, uint16_t *plane) {
+    const gvc_group_frame *frame = &group->frame[index];
+    uint32_t size = group->segment->weld.size;
+    if (from == GVC_CODES_EXACT) {
+        memcpy(plane, frame->codes, (size_t)3 * size * size * sizeof *plane);
+    } else {
+        gvc_picture_cut(group->layout, frame->decoded, 0, 0, size, GVC_CODE_SHIFT, plane);
+    }
+}
+
+/* Digest of the frame that a decoder will rebuild. */
+static gvc_result digest_frame(const gvc_group *group, size_t index, gvc_code_source from,
+                               uint8_t digest[8], gvc_error *error) {
     const gvc_weld *weld = &group->segment->weld;
     size_t samples = (size_t)weld->size * weld->size;
     uint8_t full[32];
@@ -115,7 +127,7 @@ static gvc_result digest_frame(const gvc_group *group, const uint16_t *luma, uin
     gvc_sha256 *state = gvc_sha256_begin();
     gvc_result result = plane && code && face && state ? GVC_OK : gvc_fail_memory(error);
     if (result == GVC_OK) {
-        gvc_picture_cut(group->layout, luma, 0, 0, weld->size, GVC_CODE_SHIFT, plane);
+        gvc_group_plane(group, index, from, plane);
         gvc_weld_codes(weld, plane, code);
         gvc_rebuild_faces(weld, code, face);
         result = gvc_rebuild_digest_update(state, weld, code, face, error);
@@ -144,9 +156,13 @@ static void name_frame(const gvc_source *source, uint64_t frame, char *text, siz
 static gvc_result write_records(const gvc_group *group, const gvc_source *source, gvc_buffer *bytes,
                                 gvc_sample *samples, gvc_error *error) {
     for (size_t i = 0; i < group->count; i++) {
-        gvc_shape_frame facts = {.same = i > 0};
+        gvc_shape_frame facts = {.same = i > 0, .has_preview = group->exact && group->video};
         size_t before = bytes->size;
-        GVC_TRY(digest_frame(group, group->frame[i].decoded, facts.digest, error));
+        gvc_code_source from = group->exact ? GVC_CODES_EXACT : GVC_CODES_VIDEO;
+        GVC_TRY(digest_frame(group, i, from, facts.digest, error));
+        if (facts.has_preview) {
+            GVC_TRY(digest_frame(group, i, GVC_CODES_VIDEO, facts.preview_digest, error));
+        }
         if (i == 0) name_frame(source, group->first_frame, facts.source, sizeof facts.source);
         GVC_TRY(gvc_shape_record_write(&group->shape, &facts, bytes, error));
         samples[i].size = bytes->size - before;
@@ -155,30 +171,39 @@ static gvc_result write_records(const gvc_group *group, const gvc_source *source
     return bytes->failed ? gvc_fail_memory(error) : GVC_OK;
 }
 
+static gvc_sample video_sample(const gvc_group *group, size_t i) {
+    const gvc_packet *packet = &group->coded.packet[i];
+    int32_t offset = (int32_t)((int64_t)packet->presentation - (int64_t)i);
+    return (gvc_sample){packet->data, packet->size, offset, packet->keyframe};
+}
+
 gvc_result gvc_group_write(gvc_group *group, const gvc_source *source, gvc_writer *writer,
                            gvc_error *error) {
     gvc_buffer bytes = {0};
-    gvc_sample *geometry = gvc_alloc(group->count, sizeof *geometry);
+    gvc_sample *video = gvc_alloc(group->count, sizeof *video);
     gvc_sample *shape = gvc_alloc(group->count, sizeof *shape);
-    gvc_result result = geometry && shape ? GVC_OK : gvc_fail_memory(error);
+    gvc_sample *exact = gvc_alloc(group->count, sizeof *exact);
+    gvc_result result = video && shape && exact ? GVC_OK : gvc_fail_memory(error);
     if (result == GVC_OK) result = write_records(group, source, &bytes, shape, error);
     if (result == GVC_OK) {
         size_t at = 0;
         for (size_t i = 0; i < group->count; i++) {
-            const gvc_packet *packet = &group->coded.packet[i];
-            int32_t offset = (int32_t)((int64_t)packet->presentation - (int64_t)i);
-            geometry[i] = (gvc_sample){packet->data, packet->size, offset, packet->keyframe};
+            const gvc_buffer *image = &group->frame[i].exact;
+            if (group->video) video[i] = video_sample(group, i);
+            if (group->exact) exact[i] = (gvc_sample){image->data, image->size, 0, i == 0};
             shape[i].data = bytes.data + at;
             at += shape[i].size;
         }
         gvc_fragment fragment = {.first_frame = group->first_frame,
                                  .frame_count = group->count,
-                                 .geometry = geometry,
-                                 .shape = shape};
+                                 .geometry = group->video ? video : NULL,
+                                 .shape = shape,
+                                 .exact = group->exact ? exact : NULL};
         result = gvc_writer_fragment(writer, &fragment, error);
     }
-    free(geometry);
+    free(video);
     free(shape);
+    free(exact);
     gvc_buffer_free(&bytes);
     return result;
 }

@@ -25,6 +25,7 @@
 typedef struct measure_context {
     const gvc_group *group;
     const gvc_source *source;
+    gvc_code_source from;
     bool weld;
     size_t probes;               /* number of frames measured */
     double *relative, *diagonal; /* per probe */
@@ -39,13 +40,13 @@ static size_t probe_frame(const measure_context *context, size_t probe) {
     return (size_t)((place - floor(place)) * (double)count);
 }
 
-static gvc_result rebuild(const gvc_group *group, size_t index, gvc_mesh **rebuilt,
+static gvc_result rebuild(const measure_context *context, size_t index, gvc_mesh **rebuilt,
                           gvc_error *error) {
-    const gvc_segment *segment = group->segment;
+    const gvc_segment *segment = context->group->segment;
     uint32_t size = segment->weld.size;
     uint16_t *plane = gvc_alloc((size_t)3 * size * size, sizeof *plane);
     if (!plane) return gvc_fail_memory(error);
-    gvc_picture_cut(group->layout, group->frame[index].decoded, 0, 0, size, GVC_CODE_SHIFT, plane);
+    gvc_group_plane(context->group, index, context->from, plane);
     gvc_result result =
         gvc_rebuild_mesh(&segment->weld, plane, segment->origin, segment->step, rebuilt, error);
     free(plane);
@@ -59,7 +60,7 @@ static gvc_result measure_one(void *user, size_t probe, gvc_error *error) {
     gvc_mesh *original = NULL, *rebuilt = NULL;
     gvc_result result =
         gvc_load_frame(context->source, number, context->weld, &original, NULL, error);
-    if (result == GVC_OK) result = rebuild(context->group, index, &rebuilt, error);
+    if (result == GVC_OK) result = rebuild(context, index, &rebuilt, error);
     if (result == GVC_OK) {
         context->diagonal[probe] = gvc_mesh_diagonal(original);
         result =
@@ -74,7 +75,8 @@ typedef struct search {
     gvc_group *group;
     const gvc_source *source;
     const gvc_encode_options *options;
-    double coded_crf; /* of group->coded as it stands */
+    gvc_code_source from; /* what is measured */
+    double coded_crf;     /* of group->coded as it stands */
     double rms,
         load; /* of it, on the frames measured last: load is the RMS of error / error asked for */
     double limit; /* load at which a quantiser holds in the search */
@@ -82,8 +84,11 @@ typedef struct search {
 
 /* RMS over `probes` frames, and as a multiple of what was asked for. */
 static gvc_result measure(search *s, size_t probes, gvc_error *error) {
-    measure_context context = {
-        .group = s->group, .source = s->source, .weld = s->options->weld, .probes = probes};
+    measure_context context = {.group = s->group,
+                               .source = s->source,
+                               .from = s->from,
+                               .weld = s->options->weld,
+                               .probes = probes};
     context.relative = gvc_alloc(probes, sizeof *context.relative);
     context.diagonal = gvc_alloc(probes, sizeof *context.diagonal);
     gvc_result result = context.relative && context.diagonal ? GVC_OK : gvc_fail_memory(error);
@@ -208,6 +213,16 @@ gvc_result gvc_rate_code(gvc_group *group, const gvc_source *source,
         GVC_TRY(gvc_group_code(group, options, *crf, error));
         GVC_TRY(measure(&s, group->count, error));
     }
+    *rms = s.rms;
+    *held = s.load <= 1;
+    return GVC_OK;
+}
+
+gvc_result gvc_rate_measure_exact(gvc_group *group, const gvc_source *source,
+                                  const gvc_encode_options *options, double *rms, bool *held,
+                                  gvc_error *error) {
+    search s = {.group = group, .source = source, .options = options, .from = GVC_CODES_EXACT};
+    GVC_TRY(measure(&s, group->count, error));
     *rms = s.rms;
     *held = s.load <= 1;
     return GVC_OK;

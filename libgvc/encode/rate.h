@@ -15,4 +15,9 @@ gvc_result gvc_rate_code(gvc_group *group, const gvc_source *source,
                          const gvc_encode_options *options, double *crf, double *rms, bool *held,
                          gvc_error *error);
 
+/** The same measure of the exact track, whose error is that of sampling and 16-bit codes alone. */
+gvc_result gvc_rate_measure_exact(gvc_group *group, const gvc_source *source,
+                                  const gvc_encode_options *options, double *rms, bool *held,
+                                  gvc_error *error);
+
 #endif

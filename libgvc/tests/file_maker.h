@@ -88,7 +88,7 @@ static inline gvc_result write_group(gvc_writer *writer, uint64_t first_frame, s
         size = sample_bytes(1, first_frame + i, first, bytes[1][i]);
         sample[1][i] = (gvc_sample){bytes[1][i], size, 0, first};
     }
-    gvc_fragment fragment = {first_frame, count, sample[0], sample[1]};
+    gvc_fragment fragment = {first_frame, count, sample[0], sample[1], NULL};
     return gvc_writer_fragment(writer, &fragment, error);
 }
 

@@ -430,7 +430,7 @@ static void test_writer_refusals(void **state) {
                             {{&byte, 1, 0, true}, {&byte, 1, 0, true}},
                             {{&byte, 1, -1, true}, {&byte, 1, 0, false}}};
     for (unsigned i = 0; i < 6; i++) {
-        gvc_fragment fragment = {0, 2, bad[i], shape};
+        gvc_fragment fragment = {0, 2, bad[i], shape, NULL};
         assert_int_equal(gvc_writer_fragment(writer, &fragment, NULL), GVC_ERROR_ARGUMENT);
     }
     gvc_sample bad_shape[4][2] = {{{&same, 1, 0, true}, {&same, 1, 0, false}},
@@ -438,7 +438,7 @@ static void test_writer_refusals(void **state) {
                                   {{&byte, 1, 1, true}, {&same, 1, -1, false}},
                                   {{&byte, 1, 0, true}, {&same, 1, 0, true}}};
     for (unsigned i = 0; i < 4; i++) {
-        gvc_fragment fragment = {0, 2, picture, bad_shape[i]};
+        gvc_fragment fragment = {0, 2, picture, bad_shape[i], NULL};
         assert_int_equal(gvc_writer_fragment(writer, &fragment, NULL), GVC_ERROR_ARGUMENT);
     }
     assert_int_equal(write_group(writer, 0, 4, NULL), GVC_OK);

@@ -242,7 +242,7 @@ static void test_hostile_counts(void **state) {
     gvc_write_varint(&record, UINT64_MAX);
     for (unsigned i = 0; i < 100; i++) gvc_write_u8(&record, 1);
     assert_int_equal(read_at(&record, WIDTH, HEIGHT, &back, &frame_back), GVC_ERROR_CORRUPT);
-    record.data[0] = 0x08;
+    record.data[0] = 0x10;
     assert_int_equal(read_at(&record, WIDTH, HEIGHT, &back, &frame_back), GVC_ERROR_UNSUPPORTED);
     gvc_buffer_free(&record);
 }

@@ -177,9 +177,13 @@ typedef struct gvc_encode_options {
     double max_rms; /**< RMS error to hold in every group of frames, as a fraction of the frame's
                          bounding-box diagonal (default 1e-3); ignored if crf is given */
     double max_rms_length; /**< > 0: the same as a length in the meshes' unit, instead of max_rms */
-    double crf;       /**< x264's rate factor at 10 bits, -12..51; NaN (default): from max_rms */
-    bool best_effort; /**< warn instead of failing where the error asked for is out of reach */
-    uint32_t gop;     /**< frames per group (random access unit); default 60 */
+    bool lossless;     /**< keep the geometry images exactly, as 16-bit codes. max_rms then chooses
+                            the image size only: the least whose sampling error is within it */
+    bool with_preview; /**< lossless, and H.264 pictures too, within max_rms or at crf */
+    double crf;        /**< x264's rate factor at 10 bits, -12..51; NaN (default): from max_rms */
+    bool best_effort;  /**< warn instead of failing where the error asked for is out of reach */
+    uint32_t gop;      /**< frames per group (random access unit), and from keyframe to keyframe;
+                            default 60 */
     uint32_t frame_rate_num, frame_rate_den; /**< default 30/1 */
     uint32_t threads;                        /**< 0: one per processor. Never changes the output */
     char unit[16];                           /**< "m", "mm", or empty for unknown; recorded only */
@@ -206,8 +210,10 @@ GVC_API void gvc_encode_options_init(gvc_encode_options *options);
 typedef struct gvc_encode_report {
     uint64_t frame_count, segment_count, gop_count, byte_count;
     uint32_t image_size;
-    double worst_rms; /**< greatest measured RMS of a group, fraction of the diagonal */
-    double mean_crf;
+    double worst_rms; /**< greatest measured RMS of a group, fraction of the diagonal; of a lossless
+                           file, that of the exact codes */
+    double preview_rms; /**< of the preview; 0 if there is none */
+    double mean_crf;    /**< 0 if there is no video */
 } gvc_encode_report;
 
 /** Encodes all frames of `source` into `sink`. `report` may be NULL. Not in decoder-only builds,
@@ -235,6 +241,8 @@ typedef struct gvc_read_options {
     uint32_t max_image_size; /**< samples per side; default 2049 */
     uint64_t max_frames;     /**< default 10,000,000 */
     bool keep_going; /**< accept a damaged or cut-off file and index every whole fragment of it */
+    bool preview;    /**< of a lossless file that has a preview, decode that (H.264, lossy, fast)
+                          instead of the exact codes; a file that is lossy is decoded as ever */
 } gvc_read_options;
 
 GVC_API void gvc_read_options_init(gvc_read_options *options);
@@ -263,6 +271,9 @@ typedef struct gvc_info {
     uint32_t frame_rate_num, frame_rate_den;
     uint64_t gop_count;
     uint64_t damage_count; /**< damaged places found while opening with keep_going */
+    bool lossless;         /**< there is an exact track: frames are decoded to its 16-bit codes */
+    bool preview;          /**< a lossless file that has H.264 pictures, too */
+    uint64_t geometry_bytes, shape_bytes, exact_bytes; /**< of all samples of a track */
     char unit[16];
     char encoder[64]; /**< program that wrote the file */
 } gvc_info;
@@ -279,7 +290,8 @@ typedef struct gvc_frame_info {
     uint32_t node_count, edge_count;
     bool keyframe;   /**< starts a group of frames */
     char source[64]; /**< name of the original frame; the encoder here names the first of a group */
-    uint8_t digest[8]; /**< of the decoded codes and faces */
+    uint8_t digest[8]; /**< of the decoded codes and faces; with read_options.preview those of the
+                            preview, if there is one */
 } gvc_frame_info;
 
 GVC_API GVC_NODISCARD gvc_result gvc_reader_frame_info(const gvc_reader *reader, uint64_t frame,
