@@ -13,6 +13,7 @@ int cmd_encode(int argc, char **argv);
 int cmd_decode(int argc, char **argv);
 int cmd_info(int argc, char **argv);
 int cmd_verify(int argc, char **argv);
+int cmd_extract_exr(int argc, char **argv);
 int cmd_compare(int argc, char **argv);
 int cmd_synth(int argc, char **argv);
 int cmd_render(int argc, char **argv);
@@ -30,6 +31,15 @@ void cli_warn(const char *command, const char *format, ...) __attribute__((forma
 int cli_make_folder(const char *command, const char *path);
 /** Whether a file that only -f would replace has this name; then it is told. */
 bool cli_in_the_way(const char *command, const char *path);
+
+/** Name of a frame's file, allocated: the pattern filled with its number, or, if `only` one frame
+ * is written, a plain name as it is. NULL if the pattern does not fit. */
+char *cli_frame_path(const char *pattern, uint64_t frame, bool only);
+/** Everything that can be told of the output before decoding: the pattern, the folder, which is
+ * made, and, unless `force`, files in the way. `wanted` tells which of frames first ... last are
+ * written; NULL: all. EXIT_DONE or, with a message, EXIT_USAGE or EXIT_DATA. */
+int cli_check_frames(const char *command, const char *pattern, uint64_t first, uint64_t last,
+                     bool (*wanted)(void *user, uint64_t frame), void *user, bool force);
 
 /** Frames a file should have: those it declares, or those it holds if that is more. */
 uint64_t cli_frame_count(const gvc_info *info);

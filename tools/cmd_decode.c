@@ -98,36 +98,10 @@ static int parse(decode_arguments *a, int argc, char **argv) {
     return EXIT_DONE;
 }
 
-/* Name of a frame's file, allocated; NULL if the pattern does not fit. */
-static char *frame_path(const decode_arguments *a, uint64_t frame) {
-    char *path = NULL;
-    if (strchr(a->output, '%')) return pattern_fill(a->output, frame, &path) ? path : NULL;
-    return a->first == a->last ? strdup(a->output) : NULL;
-}
-
-/* Everything that can be told before decoding is told before: pattern, folder, files in the way. */
-static int check_output(const decode_arguments *a) {
-    char *path = frame_path(a, a->first);
-    if (!path) {
-        return cli_usage("decode",
-                         "the output needs one %%d for the frame number, as in out/%%04d.obj");
-    }
-    int status = cli_make_folder("decode", path);
-    free(path);
-    if (status != EXIT_DONE) return status;
-    for (uint64_t f = a->first; !a->force && f <= a->last; f++) {
-        path = frame_path(a, f);
-        bool there = path && cli_in_the_way("decode", path);
-        free(path);
-        if (there) return EXIT_DATA;
-    }
-    return EXIT_DONE;
-}
-
 static gvc_result write_frame(const decode_arguments *a, uint64_t frame, const gvc_mesh *mesh,
                               gvc_error *error) {
     if (a->no_output) return GVC_OK;
-    char *path = frame_path(a, frame);
+    char *path = cli_frame_path(a->output, frame, a->first == a->last);
     if (!path) {
         *error =
             (gvc_error){.code = GVC_ERROR_MEMORY, .frame = GVC_NO_FRAME, .offset = GVC_NO_OFFSET};
@@ -195,7 +169,10 @@ static int decode(decode_arguments *a, const gvc_reader *reader) {
         return cli_usage("decode", "'%s' is not a range of frames 0-%llu", a->frames,
                          (unsigned long long)(count - 1));
     }
-    int status = a->no_output ? EXIT_DONE : check_output(a);
+    int status = EXIT_DONE;
+    if (!a->no_output) {
+        status = cli_check_frames("decode", a->output, a->first, a->last, NULL, NULL, a->force);
+    }
     if (status != EXIT_DONE) return status;
     gvc_error_init(&error);
     if (gvc_decoder_create(reader, &decoder, &error) != GVC_OK) {

@@ -3,6 +3,7 @@
 #include "base/output.h"
 #include "cli.h"
 #include "frames.h"
+#include "from_exr.h"
 
 #include <getopt.h>
 #include <math.h>
@@ -10,6 +11,7 @@
 
 static const char usage[] =
     "usage: gvc encode [options] FRAMES... -o capture.gvc\n"
+    "       gvc encode --from-exr FRAMES.exr... -o capture.gvc\n"
     "\n"
     "FRAMES are OFF, OBJ or PLY files, a folder of them, a pattern such as scan/%04d.obj, or - for "
     "one\n"
@@ -25,6 +27,9 @@ static const char usage[] =
     "bounds\n"
     "                        what sampling alone costs\n"
     "      --with-preview    and H.264 pictures of them, within --max-rms or at --crf\n"
+    "      --from-exr        FRAMES are OpenEXR files of gvc extract-exr; they say everything, and "
+    "give\n"
+    "                        the same lossless file again\n"
     "      --size S          samples a side of the geometry images, 16 to 2049 (default: by "
     "--max-rms)\n"
     "      --crf Q           x264's rate factor, -12 to 51, instead of --max-rms\n"
@@ -53,6 +58,7 @@ enum {
     OPT_SIZE = 256,
     OPT_LOSSLESS,
     OPT_WITH_PREVIEW,
+    OPT_FROM_EXR,
     OPT_CRF,
     OPT_GOP,
     OPT_UNIT,
@@ -70,7 +76,7 @@ enum {
 typedef struct encode_arguments {
     gvc_encode_options options;
     const char *output;
-    bool force, quiet, any_order;
+    bool force, quiet, any_order, from_exr;
     cli_progress progress;
     bool scanning;
 } encode_arguments;
@@ -171,6 +177,9 @@ static int set_option(encode_arguments *a, int option, const char *value) {
     case OPT_WITH_PREVIEW:
         o->with_preview = true;
         return EXIT_DONE;
+    case OPT_FROM_EXR:
+        a->from_exr = true;
+        return EXIT_DONE;
     case OPT_NO_WELD:
         o->weld = false;
         return EXIT_DONE;
@@ -186,6 +195,22 @@ static int set_option(encode_arguments *a, int option, const char *value) {
     return cli_usage("encode", "'%s' is not a value this option takes", value);
 }
 
+/* Whether an option says how meshes become images. */
+static bool is_of_meshes(int option) {
+    switch (option) {
+    case 'o':
+    case 'f':
+    case 'q':
+    case 'j':
+    case OPT_FROM_EXR:
+    case OPT_LOSSLESS:
+    case OPT_ANY_ORDER:
+        return false;
+    default:
+        return true;
+    }
+}
+
 static int parse(encode_arguments *a, int argc, char **argv) {
     static const struct option options[] = {
         {"output", required_argument, NULL, 'o'},
@@ -199,6 +224,7 @@ static int parse(encode_arguments *a, int argc, char **argv) {
         {"unit", required_argument, NULL, OPT_UNIT},
         {"lossless", no_argument, NULL, OPT_LOSSLESS},
         {"with-preview", no_argument, NULL, OPT_WITH_PREVIEW},
+        {"from-exr", no_argument, NULL, OPT_FROM_EXR},
         {"no-weld", no_argument, NULL, OPT_NO_WELD},
         {"any-order", no_argument, NULL, OPT_ANY_ORDER},
         {"persistence", required_argument, NULL, OPT_PERSISTENCE},
@@ -212,9 +238,15 @@ static int parse(encode_arguments *a, int argc, char **argv) {
         {"help", no_argument, NULL, 'h'},
         {NULL, 0, NULL, 0}};
     int option;
+    bool of_meshes = false;
     while ((option = getopt_long(argc, argv, "o:fqe:r:j:h", options, NULL)) != -1) {
         int status = set_option(a, option, optarg);
         if (status != EXIT_DONE) return status;
+        of_meshes = of_meshes || is_of_meshes(option);
+    }
+    if (a->from_exr && of_meshes) {
+        return cli_usage("encode", "with --from-exr the frames say everything but -o, -f, -q, -j "
+                                   "and --any-order");
     }
     if (optind == argc) return cli_usage("encode", "name the frames to encode");
     if (!a->output) return cli_usage("encode", "name the file to write with -o");
@@ -227,6 +259,16 @@ static int parse(encode_arguments *a, int argc, char **argv) {
         return cli_usage("encode", "--lossless without --with-preview has no use for --crf");
     }
     return EXIT_DONE;
+}
+
+/* Nothing of these is measured where images come from OpenEXR files. */
+static void summarise_images(const encode_arguments *a, const gvc_encode_report *report,
+                             double seconds) {
+    if (a->quiet) return;
+    fprintf(stderr, "%llu frames, %llu bytes (%.0f a frame), %u x %u images, %.1f s\n",
+            (unsigned long long)report->frame_count, (unsigned long long)report->byte_count,
+            (double)report->byte_count / (double)report->frame_count, report->image_size,
+            report->image_size, seconds);
 }
 
 static void summarise(const encode_arguments *a, const gvc_encode_report *report, double seconds) {
@@ -254,9 +296,14 @@ static int encode(encode_arguments *a, frame_list *list) {
     }
     gvc_source source = frame_list_source(list);
     gvc_sink sink = {.user = &output, .write = gvc_output_write};
+    gvc_result result;
     a->scanning = true;
     cli_progress_begin(&a->progress, "reading", a->quiet);
-    gvc_result result = gvc_encode(&source, &sink, &a->options, &report, &error);
+    if (a->from_exr) {
+        result = encode_from_exr(list, &sink, &a->options, &report, &error);
+    } else {
+        result = gvc_encode(&source, &sink, &a->options, &report, &error);
+    }
     cli_progress_end(&a->progress);
     if (result == GVC_OK) {
         gvc_output_sync(&output);
@@ -265,7 +312,11 @@ static int encode(encode_arguments *a, frame_list *list) {
         gvc_output_discard(&output);
     }
     if (result != GVC_OK) return cli_fail("encode", a->output, &error);
-    summarise(a, &report, cli_now() - started);
+    if (a->from_exr) {
+        summarise_images(a, &report, cli_now() - started);
+    } else {
+        summarise(a, &report, cli_now() - started);
+    }
     return EXIT_DONE;
 }
 
@@ -281,10 +332,11 @@ int cmd_encode(int argc, char **argv) {
     int status = parse(&arguments, argc, argv);
     if (status != EXIT_DONE) return status < 0 ? EXIT_DONE : status;
     gvc_error_init(&error);
-    if (frame_list_make(argv + optind, argc - optind, arguments.any_order, &list, &error) !=
-        GVC_OK) {
-        return cli_fail("encode", NULL, &error);
-    }
+    gvc_result listed =
+        arguments.from_exr
+            ? frame_list_make_exr(argv + optind, argc - optind, arguments.any_order, &list, &error)
+            : frame_list_make(argv + optind, argc - optind, arguments.any_order, &list, &error);
+    if (listed != GVC_OK) return cli_fail("encode", NULL, &error);
     status = encode(&arguments, &list);
     frame_list_free(&list);
     return status;

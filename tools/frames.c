@@ -98,6 +98,11 @@ static bool is_mesh_name(const char *name) {
             strcasecmp(dot, ".ply") == 0);
 }
 
+static bool is_exr_name(const char *name) {
+    const char *dot = strrchr(name, '.');
+    return name[0] != '.' && dot && strcasecmp(dot, ".exr") == 0;
+}
+
 static gvc_result at_file(gvc_error *error, gvc_result result, const char *path) {
     return gvc_fail_in(error, result, path);
 }
@@ -169,18 +174,18 @@ static gvc_result append_folder(frame_list *list, const char *folder, name_filte
     return result;
 }
 
-static bool any_mesh(const char *name, const void *user) {
-    (void)user;
-    return is_mesh_name(name);
+static bool any_frame(const char *name, const void *user) {
+    const frame_list *list = user;
+    return list->exr ? is_exr_name(name) : is_mesh_name(name);
 }
 
 static gvc_result add_folder(frame_list *list, const char *folder, bool any_order,
                              gvc_error *error) {
     size_t first = list->count;
-    GVC_TRY(append_folder(list, folder, any_mesh, NULL, error));
+    GVC_TRY(append_folder(list, folder, any_frame, list, error));
     if (list->count == first) {
-        gvc_result result =
-            gvc_fail(error, GVC_ERROR_IO, "the folder holds no .obj, .off or .ply file");
+        gvc_result result = gvc_fail(error, GVC_ERROR_IO, "the folder holds no %s file",
+                                     list->exr ? ".exr" : ".obj, .off or .ply");
         return at_file(error, result, folder);
     }
     if (any_order) return GVC_OK;
@@ -242,7 +247,7 @@ static gvc_result add_pattern(frame_list *list, const char *pattern, bool any_or
 static gvc_result add_argument(frame_list *list, const char *argument, bool any_order,
                                gvc_error *error) {
     struct stat status;
-    if (strcmp(argument, "-") == 0) {
+    if (strcmp(argument, "-") == 0 && !list->exr) {
         if (list->standard_input) {
             return gvc_fail(error, GVC_ERROR_ARGUMENT, "standard input can be only one frame");
         }
@@ -274,16 +279,27 @@ static gvc_result check_order(const frame_list *list, gvc_error *error) {
     return GVC_OK;
 }
 
-gvc_result frame_list_make(char *const *argument, int count, bool any_order, frame_list *list,
-                           gvc_error *error) {
+static gvc_result make_list(char *const *argument, int count, bool any_order, frame_list *list,
+                            gvc_error *error) {
     gvc_result result = GVC_OK;
-    *list = (frame_list){0};
     for (int i = 0; i < count && result == GVC_OK; i++) {
         result = add_argument(list, argument[i], any_order, error);
     }
     if (result == GVC_OK && !any_order) result = check_order(list, error);
     if (result != GVC_OK) frame_list_free(list);
     return result;
+}
+
+gvc_result frame_list_make(char *const *argument, int count, bool any_order, frame_list *list,
+                           gvc_error *error) {
+    *list = (frame_list){0};
+    return make_list(argument, count, any_order, list, error);
+}
+
+gvc_result frame_list_make_exr(char *const *argument, int count, bool any_order, frame_list *list,
+                               gvc_error *error) {
+    *list = (frame_list){.exr = true};
+    return make_list(argument, count, any_order, list, error);
 }
 
 void frame_list_free(frame_list *list) {

@@ -9,6 +9,7 @@ typedef struct frame_list {
     char **path;
     size_t count, capacity;
     gvc_mesh *standard_input; /**< the frame "-", read once */
+    bool exr;                 /**< frames are OpenEXR files, not meshes */
 } frame_list;
 
 /** Lists the frames that `count` arguments name. A folder and a pattern ("scan/%04d.obj") stand for
@@ -16,6 +17,9 @@ typedef struct frame_list {
  * order are errors unless `any_order`. */
 gvc_result frame_list_make(char *const *argument, int count, bool any_order, frame_list *list,
                            gvc_error *error);
+/** The same for OpenEXR files of frames. */
+gvc_result frame_list_make_exr(char *const *argument, int count, bool any_order, frame_list *list,
+                               gvc_error *error);
 void frame_list_free(frame_list *list);
 /** A source of the frames; borrows the list. */
 gvc_source frame_list_source(frame_list *list);

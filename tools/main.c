@@ -13,6 +13,8 @@ static const struct {
     {"decode", cmd_decode, "get closed meshes back, all frames or some"},
     {"info", cmd_info, "tell what is in a .gvc file"},
     {"verify", cmd_verify, "prove a .gvc file good, or measure it against its capture"},
+    {"extract-exr", cmd_extract_exr,
+     "get geometry images as OpenEXR files, which encode takes back"},
     {"compare", cmd_compare, "sizes and errors beside zipped OFF and Draco"},
     {"synth", cmd_synth, "make a sample capture"},
     {"render", cmd_render, "make pictures: surfaces, cut graphs, geometry images"},
@@ -21,7 +23,7 @@ static const struct {
 static void print_usage(FILE *file) {
     fprintf(file, "usage: gvc COMMAND ...\n\n");
     for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
-        fprintf(file, "  %-8s %s\n", commands[i].name, commands[i].summary);
+        fprintf(file, "  %-11s %s\n", commands[i].name, commands[i].summary);
     }
     fprintf(
         file,

@@ -3,6 +3,7 @@
 #include "cli.h"
 
 #include "base/output.h"
+#include "frames.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -29,4 +30,30 @@ int cli_make_folder(const char *command, const char *path) {
     }
     free(folder);
     return status;
+}
+
+char *cli_frame_path(const char *pattern, uint64_t frame, bool only) {
+    char *path = NULL;
+    if (strchr(pattern, '%')) return pattern_fill(pattern, frame, &path) ? path : NULL;
+    return only ? strdup(pattern) : NULL;
+}
+
+int cli_check_frames(const char *command, const char *pattern, uint64_t first, uint64_t last,
+                     bool (*wanted)(void *user, uint64_t frame), void *user, bool force) {
+    char *path = cli_frame_path(pattern, first, first == last);
+    if (!path) {
+        return cli_usage(command,
+                         "the output needs one %%d for the frame number, as in out/%%04d.obj");
+    }
+    int status = cli_make_folder(command, path);
+    free(path);
+    if (status != EXIT_DONE) return status;
+    for (uint64_t f = first; !force && f <= last; f++) {
+        if (wanted && !wanted(user, f)) continue;
+        path = cli_frame_path(pattern, f, first == last);
+        bool there = path && cli_in_the_way(command, path);
+        free(path);
+        if (there) return EXIT_DATA;
+    }
+    return EXIT_DONE;
 }

@@ -21,7 +21,7 @@
  *   gvcTime    double  presentation time, seconds
  *   gvcUnit    string  unit of the position; missing if it is not known
  *
- * Nothing else, and no dates: the same image gives the same bytes.
+ * Nothing else unless it is asked for, and no dates: the same image gives the same bytes.
  */
 #ifndef GVC_CODEC_EXR_H
 #define GVC_CODEC_EXR_H
@@ -40,6 +40,26 @@ typedef struct gvc_exr_facts {
  * are not as said above. */
 gvc_result gvc_exr_encode(uint32_t size, const uint16_t *codes, const gvc_exr_facts *facts,
                           gvc_buffer *bytes, gvc_error *error);
+
+/** An attribute of text that the caller adds. */
+typedef struct gvc_exr_text {
+    const char *name, *value;
+} gvc_exr_text;
+
+typedef struct gvc_exr_options {
+    bool piz; /**< PIZ instead of ZIP: to compare with, gvc_exr_decode refuses it */
+    const gvc_exr_text *text;
+    size_t text_count;
+} gvc_exr_options;
+
+/** The same, with more attributes or compressed otherwise. */
+gvc_result gvc_exr_encode_with(uint32_t size, const uint16_t *codes, const gvc_exr_facts *facts,
+                               const gvc_exr_options *options, gvc_buffer *bytes, gvc_error *error);
+
+/** Appends the value of an attribute of text of untrusted bytes that must be such a file, without a
+ * NUL. GVC_ERROR_CORRUPT if there is none. */
+gvc_result gvc_exr_read_text(const uint8_t *data, size_t data_size, const char *name,
+                             gvc_buffer *text, gvc_error *error);
 
 /** Reads untrusted bytes that must be such a file of an image of `size`. Compression may be NONE,
  * RLE, ZIPS or ZIP, and there may be further attributes. `codes` gets 3 * size * size codes; its

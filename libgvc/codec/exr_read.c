@@ -213,24 +213,54 @@ static gvc_result read_pixels(exr_context_t file, uint32_t size, uint16_t *codes
     return result;
 }
 
+/* Parses the header; `*file` is to be finished by the caller, on failure too. `bytes` is borrowed.
+ */
+static gvc_result open_file(gvc_cursor *bytes, exr_context_t *file, gvc_error *error) {
+    *file = NULL;
+    GVC_TRY(check_kind(bytes->data, bytes->size, error));
+    exr_context_initializer_t init = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    init.error_handler_fn = keep_quiet;
+    init.user_data = bytes;
+    init.read_fn = read_at;
+    init.size_fn = size_of;
+    init.max_image_width = init.max_image_height = (int)GVC_MAX_IMAGE_SIZE;
+    init.flags = EXR_CONTEXT_FLAG_STRICT_HEADER | EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
+    exr_result_t status = exr_start_read(file, "image.exr", &init);
+    return status ? fail_exr(status, error) : GVC_OK;
+}
+
+gvc_result gvc_exr_read_text(const uint8_t *data, size_t data_size, const char *name,
+                             gvc_buffer *text, gvc_error *error) {
+    gvc_cursor bytes = gvc_cursor_make(data, data_size);
+    exr_context_t file;
+    gvc_result result = open_file(&bytes, &file, error);
+    if (result == GVC_OK) {
+        int32_t length = 0;
+        const char *value = NULL;
+        exr_result_t status = exr_attr_get_string(file, 0, name, &length, &value);
+        if (status == EXR_ERR_OUT_OF_MEMORY) {
+            result = gvc_fail_memory(error);
+        } else if (status || length < 0) {
+            result = gvc_fail(error, GVC_ERROR_CORRUPT,
+                              "the OpenEXR file has no attribute %s of text", name);
+        } else {
+            gvc_write_bytes(text, value, (size_t)length);
+            if (text->failed) result = gvc_fail_memory(error);
+        }
+    }
+    if (file) exr_finish(&file);
+    return result;
+}
+
 gvc_result gvc_exr_decode(const uint8_t *data, size_t data_size, uint32_t size, uint16_t *codes,
                           gvc_exr_facts *facts, gvc_error *error) {
     if (size < GVC_MIN_IMAGE_SIZE || size > GVC_MAX_IMAGE_SIZE) {
         return gvc_fail(error, GVC_ERROR_ARGUMENT, "no image of %u samples a side", size);
     }
-    GVC_TRY(check_kind(data, data_size, error));
     gvc_cursor bytes = gvc_cursor_make(data, data_size);
     gvc_exr_facts found;
-    exr_context_t file = NULL;
-    exr_context_initializer_t init = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    init.error_handler_fn = keep_quiet;
-    init.user_data = &bytes;
-    init.read_fn = read_at;
-    init.size_fn = size_of;
-    init.max_image_width = init.max_image_height = (int)GVC_MAX_IMAGE_SIZE;
-    init.flags = EXR_CONTEXT_FLAG_STRICT_HEADER | EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
-    exr_result_t status = exr_start_read(&file, "image.exr", &init);
-    gvc_result result = status ? fail_exr(status, error) : GVC_OK;
+    exr_context_t file;
+    gvc_result result = open_file(&bytes, &file, error);
     if (result == GVC_OK) result = check_layout(file, size, error);
     if (result == GVC_OK) result = check_channels(file, error);
     if (result == GVC_OK) result = read_facts(file, &found, error);

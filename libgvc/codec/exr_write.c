@@ -12,7 +12,6 @@
 #include <string.h>
 
 #define ZIP_LEVEL 9
-#define COMPRESSION EXR_COMPRESSION_ZIP
 
 typedef struct exr_target {
     gvc_buffer *bytes;
@@ -44,13 +43,15 @@ static int64_t write_at(exr_const_context_t context, void *user, const void *dat
     return bytes->failed ? -1 : (int64_t)size;
 }
 
-static exr_result_t describe(exr_context_t file, uint32_t size, const gvc_exr_facts *facts) {
+static exr_result_t describe(exr_context_t file, uint32_t size, const gvc_exr_facts *facts,
+                             const gvc_exr_options *options) {
     int part;
     exr_attr_v3d_t origin = {{{facts->origin[0], facts->origin[1], facts->origin[2]}}};
     exr_result_t status = exr_add_part(file, NULL, EXR_STORAGE_SCANLINE, &part);
     if (!status) {
         status = exr_initialize_required_attr_simple(file, part, (int32_t)size, (int32_t)size,
-                                                     COMPRESSION);
+                                                     options->piz ? EXR_COMPRESSION_PIZ
+                                                                  : EXR_COMPRESSION_ZIP);
     }
     for (unsigned c = 0; !status && c < GVC_EXR_CHANNELS; c++) {
         status = exr_add_channel(file, part, gvc_exr_channel_name[c], EXR_PIXEL_HALF,
@@ -62,6 +63,9 @@ static exr_result_t describe(exr_context_t file, uint32_t size, const gvc_exr_fa
     if (!status) status = exr_attr_set_double(file, part, GVC_EXR_TIME_NAME, facts->time);
     if (!status && facts->unit[0]) {
         status = exr_attr_set_string(file, part, GVC_EXR_UNIT_NAME, facts->unit);
+    }
+    for (size_t i = 0; !status && i < options->text_count; i++) {
+        status = exr_attr_set_string(file, part, options->text[i].name, options->text[i].value);
     }
     return status ? status : exr_write_header(file);
 }
@@ -126,6 +130,13 @@ static gvc_result check_facts(uint32_t size, const gvc_exr_facts *facts, gvc_err
 
 gvc_result gvc_exr_encode(uint32_t size, const uint16_t *codes, const gvc_exr_facts *facts,
                           gvc_buffer *bytes, gvc_error *error) {
+    const gvc_exr_options plain = {0};
+    return gvc_exr_encode_with(size, codes, facts, &plain, bytes, error);
+}
+
+gvc_result gvc_exr_encode_with(uint32_t size, const uint16_t *codes, const gvc_exr_facts *facts,
+                               const gvc_exr_options *options, gvc_buffer *bytes,
+                               gvc_error *error) {
     GVC_TRY(check_facts(size, facts, error));
     exr_target target = {bytes, bytes->size};
     exr_context_t file = NULL;
@@ -135,7 +146,7 @@ gvc_result gvc_exr_encode(uint32_t size, const uint16_t *codes, const gvc_exr_fa
     init.write_fn = write_at;
     init.zip_level = ZIP_LEVEL;
     exr_result_t status = exr_start_write(&file, "image.exr", EXR_WRITE_FILE_DIRECTLY, &init);
-    if (!status) status = describe(file, size, facts);
+    if (!status) status = describe(file, size, facts, options);
     if (!status) status = write_chunks(file, size, codes);
     exr_result_t finished = file ? exr_finish(&file) : EXR_ERR_SUCCESS;
     if (!status) status = finished;
