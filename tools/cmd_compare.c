@@ -2,6 +2,7 @@
 /** @file cmd_compare.c  gvc compare. */
 #include "cmd_compare.h"
 #include "compare.h"
+#include "compare_lossless.h"
 #include "frames.h"
 
 #include <errno.h>
@@ -16,6 +17,7 @@
 
 static const char usage[] =
     "usage: gvc compare [options] FRAMES...\n"
+    "       gvc compare --lossless [options] FRAMES...\n"
     "       gvc compare --paper [options] CAPTURE...\n"
     "\n"
     "Codes the frames in several ways and prints bytes per frame, mean, RMS and Hausdorff distance "
@@ -30,6 +32,17 @@ static const char usage[] =
     "      --any-order       take files as given: no check of numbers\n"
     "  -j, --jobs N          threads\n"
     "  -q, --quiet           no progress\n"
+    "\n"
+    "With --lossless: exact geometry images in this format, the same before they are rounded to 16 "
+    "bits, as OpenEXR\n"
+    "files with ZIP and PIZ, their codes compressed by zstd and xz (a group of frames at once); "
+    "and "
+    "Draco at qp 16,\n"
+    "and zipped OFF.\n"
+    "\n"
+    "  -e, --max-rms BOUND   chooses the size of the images (default 0.1%)\n"
+    "      --size N          samples a side\n"
+    "      --gop N           frames from keyframe to keyframe (default 60)\n"
     "\n"
     "With --paper: the three tables of the paper (Tung and Matsuyama, Sect. 5) for each capture "
     "(folder or pattern; or all\n"
@@ -60,6 +73,7 @@ enum {
     OPT_JSON,
     OPT_CSV,
     OPT_ANY_ORDER,
+    OPT_LOSSLESS,
     OPT_PAPER,
     OPT_MIXED,
     OPT_PAPER_ROW,
@@ -91,6 +105,9 @@ static bool add_item(compare_list *list, char *item) {
 static int set_paper_option(compare_arguments *a, int option, char *value) {
     uint64_t number;
     switch (option) {
+    case OPT_LOSSLESS:
+        a->lossless = true;
+        return EXIT_DONE;
     case OPT_PAPER:
         a->paper = true;
         return EXIT_DONE;
@@ -166,8 +183,12 @@ static int set_option(compare_arguments *a, int option, char *value) {
 /* An option of the other kind of comparison would be without effect. */
 static int check_kind(const compare_arguments *a) {
     bool plain = a->qp || a->max_rms;
-    bool paper = a->mixed.count || a->row.count || a->tables || a->frames || a->plot || a->size ||
-                 a->gop || a->force || !isnan(a->crf);
+    bool paper = a->mixed.count || a->row.count || a->tables || a->frames || a->plot || a->force ||
+                 !isnan(a->crf) || (!a->lossless && (a->size || a->gop));
+    if (a->paper && a->lossless) return cli_usage("compare", "choose --paper or --lossless");
+    if (a->lossless && (a->qp || a->methods)) {
+        return cli_usage("compare", "--qp and --methods are not of --lossless");
+    }
     if (a->paper && plain) return cli_usage("compare", "--qp and --max-rms are not of --paper");
     if (!a->paper && paper) return cli_usage("compare", "this option is only for --paper");
     return EXIT_DONE;
@@ -183,6 +204,7 @@ static int parse(compare_arguments *a, int argc, char **argv) {
                                             {"jobs", required_argument, NULL, 'j'},
                                             {"quiet", no_argument, NULL, 'q'},
                                             {"help", no_argument, NULL, 'h'},
+                                            {"lossless", no_argument, NULL, OPT_LOSSLESS},
                                             {"paper", no_argument, NULL, OPT_PAPER},
                                             {"mixed", required_argument, NULL, OPT_MIXED},
                                             {"paper-row", required_argument, NULL, OPT_PAPER_ROW},
@@ -286,7 +308,40 @@ static gvc_result add_gvc(comparison *c, gvc_error *error) {
     return GVC_OK;
 }
 
+#define LOSSLESS_QP 16 /* as fine as the codes */
+
+static gvc_result measure_lossless(comparison *c, gvc_error *error) {
+    const compare_arguments *a = c->arguments;
+    gvc_encode_options options;
+    bool relative;
+    double bound;
+    gvc_encode_options_init(&options);
+    if (a->max_rms) {
+        if (!cli_error_bound(a->max_rms, &bound, &relative)) {
+            snprintf(error->message, sizeof error->message, "'%s' is not an error bound",
+                     a->max_rms);
+            return error->code = GVC_ERROR_ARGUMENT;
+        }
+        *(relative ? &options.max_rms : &options.max_rms_length) = bound;
+    }
+    options.lossless = true;
+    options.best_effort = true;
+    options.image_size = a->size;
+    if (a->gop) options.gop = a->gop;
+    options.threads = a->threads;
+    announce(c, "lossless");
+    gvc_result result = compare_lossless(&c->source, &options, &c->options, c->row, error);
+    if (result != GVC_OK) return result;
+    c->count = COMPARE_LOSSLESS_ROWS;
+    announce(c, "draco");
+    result = compare_draco(&c->source, LOSSLESS_QP, &c->options, &c->row[c->count], error);
+    if (result != GVC_OK) return result;
+    c->count++;
+    return add_zip(c, error);
+}
+
 static gvc_result measure(comparison *c, gvc_error *error) {
+    if (c->arguments->lossless) return measure_lossless(c, error);
     const char *list = c->arguments->methods ? c->arguments->methods : DEFAULT_METHODS;
     char item[32];
     while (c->count < MAX_ROWS && compare_next_item(&list, item, sizeof item)) {

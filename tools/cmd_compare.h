@@ -22,12 +22,14 @@ typedef struct compare_arguments {
     const char *methods; /**< NULL: all */
     bool json, csv, any_order, quiet;
     unsigned threads;
-    /* only without --paper; NULL: not given */
+    /* only without --paper, qp only without --lossless; NULL: not given */
     const char *qp, *max_rms;
+    bool lossless;
     /* only with --paper */
     bool paper;
     const char *frames, *tables, *plot; /**< NULL: not given */
     bool force;
+    /* of --paper and --lossless */
     uint32_t size, gop; /**< 0: not given */
     double crf;         /**< NaN: not given */
     compare_list mixed, row;

@@ -24,7 +24,11 @@ add_library(gvc_compare OBJECT
   "${CMAKE_CURRENT_LIST_DIR}/simplify.c"
   "${CMAKE_CURRENT_LIST_DIR}/json.c")
 if(GVC_ENCODER)
+  pkg_check_modules(LZMA REQUIRED IMPORTED_TARGET liblzma)
+  pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
+  target_link_libraries(gvc_compare PUBLIC PkgConfig::LZMA PkgConfig::ZSTD)
   target_sources(gvc_compare PRIVATE
+    "${CMAKE_CURRENT_LIST_DIR}/compare_lossless.c"
     "${CMAKE_CURRENT_LIST_DIR}/compare_paper.c"
     "${CMAKE_CURRENT_LIST_DIR}/compare_paper_data.c"
     "${CMAKE_CURRENT_LIST_DIR}/compare_paper_gis.c"
@@ -33,6 +37,8 @@ if(GVC_ENCODER)
     "${CMAKE_CURRENT_LIST_DIR}/compare_paper_plot.c"
     "${CMAKE_CURRENT_LIST_DIR}/compare_paper_print.c"
     "${CMAKE_CURRENT_LIST_DIR}/compare_paper_rows.c")
+else()
+  target_sources(gvc_compare PRIVATE "${CMAKE_CURRENT_LIST_DIR}/compare_no_lossless.c")
 endif()
 target_include_directories(gvc_compare PUBLIC
   "${CMAKE_CURRENT_LIST_DIR}" "${PROJECT_SOURCE_DIR}/libgvc/include" "${PROJECT_SOURCE_DIR}/libgvc")

@@ -59,6 +59,15 @@ gvc_result compare_gvc(const gvc_source *source, const char *method,
                        const gvc_encode_options *encode, const compare_options *options,
                        compare_row *row, gvc_error *error);
 
+/** A way to encode: gvc_encode, or one that does more. */
+typedef gvc_result (*compare_encoder)(void *user, const gvc_source *source, const gvc_sink *sink,
+                                      const gvc_encode_options *options, gvc_error *error);
+
+/** Encodes to memory; `*seconds` is the CPU time without that of reading the frames. */
+gvc_result compare_encode(const gvc_source *source, const gvc_encode_options *options,
+                          compare_encoder encode, void *user, gvc_buffer *file, double *seconds,
+                          gvc_error *error);
+
 /** Decodes a `.gvc` file, measures each frame against that of `source` and sets errors and decoding
  * time in `frames`, one per frame of the source, nothing else. */
 gvc_result compare_decode(const gvc_source *source, const gvc_buffer *file,

@@ -43,15 +43,22 @@ static gvc_result keep_bytes(void *user, const void *data, size_t size, gvc_erro
     return file->failed ? gvc_fail_memory(error) : GVC_OK;
 }
 
-static gvc_result encode_all(const gvc_source *source, const gvc_encode_options *options,
-                             gvc_buffer *file, double *seconds, gvc_error *error) {
+static gvc_result encode_plainly(void *user, const gvc_source *source, const gvc_sink *sink,
+                                 const gvc_encode_options *options, gvc_error *error) {
+    (void)user;
+    return gvc_encode(source, sink, options, NULL, error);
+}
+
+gvc_result compare_encode(const gvc_source *source, const gvc_encode_options *options,
+                          compare_encoder encode, void *user, gvc_buffer *file, double *seconds,
+                          gvc_error *error) {
     timed_source timed = {.inner = source};
     if (pthread_mutex_init(&timed.lock, NULL) != 0) return gvc_fail_memory(error);
     const gvc_source reading = {&timed, source->frame_count, timed_read,
                                 source->name ? timed_name : NULL};
     const gvc_sink sink = {file, keep_bytes};
     double begin = compare_process_seconds();
-    gvc_result result = gvc_encode(&reading, &sink, options, NULL, error);
+    gvc_result result = encode(user, &reading, &sink, options, error);
     *seconds = compare_process_seconds() - begin - timed.seconds;
     pthread_mutex_destroy(&timed.lock);
     return result;
@@ -134,7 +141,7 @@ gvc_result compare_gvc(const gvc_source *source, const char *method,
     double seconds = 0;
     compare_frame *frames = gvc_alloc(source->frame_count, sizeof *frames);
     if (!frames) return gvc_fail_memory(error);
-    GVC_CHECK(encode_all(source, encode, &file, &seconds, error));
+    GVC_CHECK(compare_encode(source, encode, encode_plainly, NULL, &file, &seconds, error));
     GVC_CHECK(compare_decode(source, &file, options, frames, error));
     compare_summarise(method, frames, source->frame_count, row);
     /* Frames are coded together: their share of the file and of the time is an equal one. */

@@ -76,4 +76,14 @@ run 0 "$gvc" extract-exr -q other.gvc --frames 0 -o other.exr
 run 1 "$gvc" encode -q --any-order --from-exr exr/000.exr other.exr -o no.gvc
 says other.exr 'another file'
 absent no.gvc
+
+# Beside other ways to keep the same codes.
+run 0 "$gvc" compare -q --lossless --size 20 --gop 2 --csv capture
+for method in 'gvc lossless' 'before rounding' 'OpenEXR, PIZ' 'zstd -19 of codes' 'xz -9 of codes' 'draco qp 16' 'zip -9'; do
+    grep -qF "$method" stdout.txt || complain "no line of '$method' from: $last"
+done
+cut -d, -f2,3 stdout.txt | grep -q "3,$(($(wc -c <a.gvc) / 3))" || complain "not the bytes of a.gvc: $last"
+run 2 "$gvc" compare -q --lossless --paper capture
+run 2 "$gvc" compare -q --lossless --qp 9 capture
+run 2 "$gvc" compare -q --size 20 capture
 finish
