@@ -18,8 +18,10 @@ typedef struct fixture {
 static int make_fixture(void **state) {
     fixture *f = calloc(1, sizeof *f);
     assert_non_null(f);
-    capture frames = {0};
-    capture_add_figure(&frames, 0, 1, 0, FRAMES);
+    capture frames = {.mesh = {mesh_ellipsoid(0.5, 0.6, 2, 10, 8, 0),
+                               mesh_ellipsoid(0.5, 0.65, 2, 10, 8, 0.1),
+                               mesh_ellipsoid(0.5, 0.7, 2, 10, 8, 0.2)},
+                      .count = FRAMES};
     gvc_encode_options options = quick_options(20, NAN, 2);
     options.lossless = options.best_effort = true;
     options.frame_rate_num = 30000;
