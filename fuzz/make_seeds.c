@@ -46,26 +46,36 @@ static gvc_shape make_star(star_parts *parts) {
     return (gvc_shape){.chart_count = 1, .chart = &parts->chart};
 }
 
-static gvc_result write_samples(gvc_writer *writer, const gvc_buffer *first,
+/** Which tracks of geometry images a file has. */
+typedef struct tracks {
+    bool video, exact;
+} tracks;
+
+static gvc_result write_samples(gvc_writer *writer, tracks has, const gvc_buffer *first,
                                 const gvc_buffer *same) {
     static const uint8_t picture[12] = {0, 0, 0, 8, 0x65, 1, 2, 3, 4, 5, 6, 7};
     static const int32_t order[4] = {0, 2, -1, -1};
-    gvc_sample geometry[4], shape[4];
+    static const uint8_t image[5] = {0x76, 0x2f, 0x31, 1, 2};
+    gvc_sample geometry[4], shape[4], exact[4];
     for (size_t i = 0; i < 4; i++) {
         const gvc_buffer *record = i ? same : first;
         geometry[i] = (gvc_sample){picture, sizeof picture - i, order[i], i == 0};
         shape[i] = (gvc_sample){record->data, record->size, 0, i == 0};
+        exact[i] = (gvc_sample){image, sizeof image - i, 0, i == 0};
     }
-    gvc_fragment fragment = {0, 4, geometry, shape, NULL};
+    gvc_fragment fragment = {0, 4, has.video ? geometry : NULL, shape, has.exact ? exact : NULL};
     GVC_TRY(gvc_writer_fragment(writer, &fragment, NULL));
-    fragment = (gvc_fragment){4, FRAMES - 4, geometry, shape, NULL};
+    fragment.first_frame = 4;
+    fragment.frame_count = FRAMES - 4;
     GVC_TRY(gvc_writer_fragment(writer, &fragment, NULL));
     return gvc_writer_finish(writer, NULL);
 }
 
-static gvc_result make_file(const gvc_buffer *first, const gvc_buffer *same, gvc_buffer *file) {
+static gvc_result make_file(tracks has, const gvc_buffer *first, const gvc_buffer *same,
+                            gvc_buffer *file) {
     static const uint8_t avc[] = {1, 110, 0, 42, 255};
     gvc_config config = {.version_minor = GVC_FORMAT_MINOR,
+                         .features = has.exact ? GVC_FEATURE_EXACT : 0,
                          .picture_width = 48,
                          .plane_height = 48,
                          .image_size = SIZE,
@@ -78,8 +88,8 @@ static gvc_result make_file(const gvc_buffer *first, const gvc_buffer *same, gvc
                          .encoder = "seed"};
     gvc_sink sink = {file, collect};
     gvc_writer *writer;
-    GVC_TRY(gvc_writer_create(&sink, &config, avc, sizeof avc, &writer, NULL));
-    gvc_result result = write_samples(writer, first, same);
+    GVC_TRY(gvc_writer_create(&sink, &config, has.video ? avc : NULL, sizeof avc, &writer, NULL));
+    gvc_result result = write_samples(writer, has, first, same);
     gvc_writer_destroy(&writer);
     return result;
 }
@@ -94,17 +104,24 @@ int main(int argc, char **argv) {
     gvc_shape star = make_star(&parts);
     gvc_shape_frame frame = {.digest = {1, 2, 3, 4, 5, 6, 7, 8}, .source = "0001.obj"};
     gvc_shape_frame next = {.same = true, .digest = {8, 7, 6, 5, 4, 3, 2, 1}};
-    gvc_buffer first = {0}, same = {0}, file = {0};
+    gvc_buffer first = {0}, same = {0}, file = {0}, exact = {0}, both = {0};
     int failed = gvc_shape_record_write(&star, &frame, &first, NULL) != GVC_OK ||
                  gvc_shape_record_write(NULL, &next, &same, NULL) != GVC_OK ||
-                 make_file(&first, &same, &file) != GVC_OK || file.failed;
+                 make_file((tracks){true, false}, &first, &same, &file) != GVC_OK ||
+                 make_file((tracks){false, true}, &first, &same, &exact) != GVC_OK ||
+                 make_file((tracks){true, true}, &first, &same, &both) != GVC_OK || file.failed ||
+                 exact.failed || both.failed;
     if (!failed) {
         failed |= seed_save(argv[1], "file", 0, &file);
         failed |= seed_save(argv[1], "file_keep_going", 1, &file);
+        failed |= seed_save(argv[1], "exact", 0, &exact);
+        failed |= seed_save(argv[1], "exact_keep_going", 1, &exact);
+        failed |= seed_save(argv[1], "both", 1, &both);
         failed |= seed_save(argv[1], "record", 2, &first);
         failed |= seed_save(argv[1], "record_same", 2, &same);
         if (changed) {
             failed |= seed_save_changed(argv[1], "changed_file", 1, &file, 7);
+            failed |= seed_save_changed(argv[1], "changed_exact", 1, &exact, 11);
             failed |= seed_save_changed(argv[1], "changed_record", 2, &first, 1);
         }
     }
@@ -112,5 +129,7 @@ int main(int argc, char **argv) {
     gvc_buffer_free(&first);
     gvc_buffer_free(&same);
     gvc_buffer_free(&file);
+    gvc_buffer_free(&exact);
+    gvc_buffer_free(&both);
     return failed;
 }
