@@ -2,7 +2,7 @@
 /**
  * @file gvc.h
  * Public interface of libgvc, the reference implementation of the `.gvc` file: 3D video (a triangle
- * mesh per frame) coded as one H.264 video of geometry images.
+ * mesh per frame) coded as one H.264 video of geometry images, or without loss.
  *
  * Conventions
  *  - Every function that can fail returns a `gvc_result` and takes a `gvc_error *` as its last
