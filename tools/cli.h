@@ -13,6 +13,7 @@ int cmd_encode(int argc, char **argv);
 int cmd_decode(int argc, char **argv);
 int cmd_info(int argc, char **argv);
 int cmd_verify(int argc, char **argv);
+int cmd_repair(int argc, char **argv);
 int cmd_compare(int argc, char **argv);
 int cmd_synth(int argc, char **argv);
 int cmd_render(int argc, char **argv);
@@ -31,7 +32,8 @@ int cli_make_folder(const char *command, const char *path);
 /** Whether a file that only -f would replace has this name; then it is told. */
 bool cli_in_the_way(const char *command, const char *path);
 
-/** Frames a file should have: those it declares, or those it holds if that is more. */
+/** Frames a file should have: those it declares, or those it holds and says are lost if that is
+ * more. */
 uint64_t cli_frame_count(const gvc_info *info);
 
 /** Whole-string numbers, independent of the locale; false if malformed or out of range. */

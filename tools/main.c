@@ -13,6 +13,7 @@ static const struct {
     {"decode", cmd_decode, "get closed meshes back, all frames or some"},
     {"info", cmd_info, "tell what is in a .gvc file"},
     {"verify", cmd_verify, "prove a .gvc file good, or measure it against its capture"},
+    {"repair", cmd_repair, "save what is undamaged in a damaged or cut-off file"},
     {"compare", cmd_compare, "sizes and errors beside zipped OFF and Draco"},
     {"synth", cmd_synth, "make a sample capture"},
     {"render", cmd_render, "make pictures: surfaces, cut graphs, geometry images"},

@@ -53,6 +53,7 @@ typedef enum gvc_result {
     GVC_ERROR_UNSUPPORTED =
         12,               /**< well-formed, but a feature or version this build does not know */
     GVC_ERROR_LIMIT = 13, /**< well-formed, but beyond a limit the caller set */
+    GVC_ERROR_LOST = 14,  /**< the file says so: lost before it was repaired */
     GVC_ERROR_MESH = 20,  /**< an input mesh that cannot be coded (open, non-manifold, NaN, ...) */
     GVC_ERROR_QUALITY = 21, /**< the geometric error asked for cannot be reached */
     GVC_ERROR_INTERNAL = 99 /**< a bug in this library */
@@ -263,6 +264,9 @@ typedef struct gvc_info {
     uint32_t frame_rate_num, frame_rate_den;
     uint64_t gop_count;
     uint64_t damage_count; /**< damaged places found while opening with keep_going */
+    uint64_t lost_count;   /**< frames that the file says were lost before it was repaired */
+    uint8_t digest[32];    /**< SHA-256 at the end of the file, of all bytes before it */
+    bool has_digest;       /**< false only for a damaged or cut-off file */
     char unit[16];
     char encoder[64]; /**< program that wrote the file */
 } gvc_info;
@@ -295,6 +299,59 @@ GVC_API void gvc_decoder_destroy(gvc_decoder **decoder);
  * the decoder can be used for other frames. */
 GVC_API GVC_NODISCARD gvc_result gvc_decoder_frame(gvc_decoder *decoder, uint64_t frame,
                                                    gvc_mesh **mesh, gvc_error *error);
+
+/* ------------------------------------------------------------------------ damage and its repair */
+
+typedef enum gvc_part {
+    GVC_PART_HEAD = 0,     /**< ftyp or moov */
+    GVC_PART_FRAGMENT = 1, /**< moof, or the header of mdat */
+    GVC_PART_GEOMETRY = 2, /**< a picture */
+    GVC_PART_SHAPE = 3,    /**< a shape record */
+    GVC_PART_INDEX = 4,    /**< mfra, or the end of the file */
+    GVC_PART_FILE = 5      /**< somewhere outside of what checksums cover */
+} gvc_part;
+
+/** A damaged place of a file. */
+typedef struct gvc_defect {
+    gvc_part part;
+    uint64_t offset, size; /**< bytes of the file; size 0 if something is missing there */
+    /** Fragments it lies in, numbered as the file does, from 1; 0 if none. Of a run of lost
+     * fragments that reaches the end of the file the last is not known: 0. */
+    uint32_t first_fragment, last_fragment;
+    /** Frames it is part of. Of GVC_PART_FRAGMENT and GVC_PART_INDEX, those that are lost with it.
+     * Of a picture or record others may depend on it; decoding tells. */
+    uint64_t first_frame, frame_count;
+    gvc_error error; /**< what is wrong */
+} gvc_defect;
+
+/** Looks at every byte of a file without decoding it: structure, checksums of all samples, digest
+ * of the file. Calls `found` for each defect in the order of the file; it returns false to stop
+ *  (GVC_ERROR_CANCELLED). Open the file with keep_going. GVC_OK if all was looked at, whether good
+ * or not. */
+GVC_API GVC_NODISCARD gvc_result gvc_reader_check(const gvc_reader *reader,
+                                                  bool (*found)(void *user,
+                                                                const gvc_defect *defect),
+                                                  void *user, gvc_error *error);
+
+typedef struct gvc_repair_report {
+    uint64_t frame_count;  /**< frames saved */
+    uint64_t lost_count;   /**< frames lost, those lost before among them */
+    uint64_t whole_groups; /**< copied bit for bit */
+    uint64_t cut_groups;   /**< of which frames before the damage were saved */
+    uint64_t byte_count;   /**< of the new file */
+} gvc_repair_report;
+
+/** Writes a good file of what is undamaged in another, which should have been opened with
+ * keep_going. Nothing is decoded or coded again: groups that are whole are copied, of others the
+ * frames before the damage are kept as far as they need nothing behind it. Frames keep their
+ * numbers, and so their times; the file states which are lost. `lost` (may be NULL) is called for
+ * each run of frames lost now. GVC_ERROR_CORRUPT if there is nothing to save. `report` may be NULL.
+ */
+GVC_API GVC_NODISCARD gvc_result gvc_repair(const gvc_reader *reader, const gvc_sink *sink,
+                                            void (*lost)(void *user, uint64_t first_frame,
+                                                         uint64_t frame_count),
+                                            void *user, gvc_repair_report *report,
+                                            gvc_error *error);
 
 #ifdef __cplusplus
 }
