@@ -96,9 +96,12 @@ static gvc_result parse_unit(gvc_parser *parser, uint64_t *end, gvc_error *error
     case GVC_BOX_FTYP:
     case GVC_BOX_MOOV:
         return gvc_box_fail(&box, error, GVC_ERROR_CORRUPT, "a second box of this kind");
-    default:
-        break; /* what is not known is not needed */
+    default: /* what is not known is not needed */
+        if (!parser->unknown) parser->unknown = box.offset;
+        *end = box_end;
+        return GVC_OK;
     }
+    parser->unknown = 0;
     *end = box_end;
     return GVC_OK;
 }
@@ -149,10 +152,12 @@ static gvc_result pass_over(gvc_parser *parser, uint64_t offset, const gvc_error
                             uint64_t *next, gvc_error *error) {
     uint64_t from = parser->data_begin ? parser->data_begin : offset;
     GVC_TRY(gvc_scan_for_box(parser, from, next, error));
+    uint64_t begin = parser->unknown ? parser->unknown : offset; /* a moof with another type? */
+    parser->unknown = 0;
     parser->data_begin = 0;
     if (*next == offset) GVC_TRY(gvc_scan_for_box(parser, offset + 1, next, error));
-    if (*next < offset) return gvc_parser_damage(parser, *next, 0, defect, error);
-    return gvc_parser_damage(parser, offset, *next - offset, defect, error);
+    if (*next < begin) return gvc_parser_damage(parser, *next, 0, defect, error);
+    return gvc_parser_damage(parser, begin, *next - begin, defect, error);
 }
 
 static gvc_result parse_body(gvc_parser *parser, uint64_t offset, gvc_error *error) {
@@ -198,7 +203,10 @@ static gvc_result check_end(gvc_parser *parser, gvc_error *error) {
         const gvc_damage *last = &demux->damage[demux->damage_count - 1];
         listed = last->offset + last->size == demux->index_offset;
     }
-    if (result != GVC_OK && !listed) GVC_TRY(gvc_parser_damage(parser, size, 0, &defect, error));
+    if (result != GVC_OK && !listed) {
+        uint64_t begin = parser->unknown ? parser->unknown : size; /* an index of another type? */
+        GVC_TRY(gvc_parser_damage(parser, begin, size - begin, &defect, error));
+    }
     demux->complete = parser->closed && parser->index_matched && demux->damage_count == 0;
     return GVC_OK;
 }

@@ -28,6 +28,7 @@ typedef struct gvc_parser {
     uint8_t *met; /**< per frame of a fragment: whether a sample shows it */
     size_t met_capacity;
     size_t fragment_capacity, sample_capacity[GVC_TRACK_KINDS], damage_capacity, gap_capacity;
+    uint64_t unknown; /**< where boxes not known begin that end at this place; 0: there are none */
     uint64_t data_begin;  /**< where the data of the last fragment begin */
     uint64_t next_frame;  /**< presentation number that the next fragment should begin with */
     uint64_t scan_budget; /**< bytes that may still be checksummed while looking for a moof */
