@@ -14,6 +14,7 @@
 #include "encode/group.h"
 #include "encode/rate.h"
 #include "encode/tap.h"
+#include "resume.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -41,8 +42,10 @@ typedef struct encoder {
     double *followed; /* point samples of the last frame of the layout; NULL: there is none yet */
     uint32_t size;    /* of all images; 0 until chosen */
     gvc_group group;
-    gvc_writer *writer; /* NULL until the first group is coded */
-    double crf;         /* of the last group: guess for the next */
+    gvc_writer *writer;         /* NULL until the first group is coded */
+    double crf;                 /* of the last group: guess for the next */
+    const gvc_partial *partial; /* what to go on from; NULL: from the beginning */
+    gvc_resume resume;
 } encoder;
 
 static gvc_result check_options(const gvc_encode_options *o, const gvc_source *source,
@@ -111,12 +114,13 @@ static void describe(const encoder *e, gvc_config *config) {
 }
 
 /* Codes, measures and writes the group; begins the file with the first one. */
-static gvc_result flush_group(encoder *e, gvc_error *error) {
+static gvc_result code_group(encoder *e, double *reached, gvc_error *error) {
     gvc_group *group = &e->group;
-    if (group->count == 0) return GVC_OK;
     double rms;
     bool held;
     GVC_TRY(gvc_rate_code(group, e->source, &e->options, &e->crf, &rms, &held, error));
+    GVC_TRY(gvc_resume_check_coded(&e->resume, &group->coded, error));
+    *reached = rms;
     if (isnan(e->options.crf) && !held) {
         char message[160];
         snprintf(message, sizeof message,
@@ -135,7 +139,29 @@ static gvc_result flush_group(encoder *e, gvc_error *error) {
         GVC_TRY(gvc_writer_create(e->sink, &config, group->coded.config, group->coded.config_size,
                                   &e->writer, error));
     }
-    GVC_TRY(gvc_group_write(group, e->source, e->writer, error));
+    return gvc_group_write(group, e->source, e->writer, error);
+}
+
+/* Takes over a group that an earlier run has finished. */
+static gvc_result take_group(encoder *e, double *rms, gvc_error *error) {
+    gvc_config config;
+    gvc_finished_group finished;
+    describe(e, &config);
+    GVC_TRY(gvc_resume_take(&e->resume, &e->group, &config, e->sink, &e->writer, &finished, error));
+    e->crf = finished.crf;
+    *rms = finished.rms;
+    return GVC_OK;
+}
+
+static gvc_result flush_group(encoder *e, gvc_error *error) {
+    gvc_group *group = &e->group;
+    if (group->count == 0) return GVC_OK;
+    double rms = 0;
+    bool finished = gvc_resume_holds(&e->resume, group->first_frame);
+    GVC_TRY(finished ? take_group(e, &rms, error) : code_group(e, &rms, error));
+    const gvc_finished_group note = {group->first_frame, group->count,
+                                     gvc_writer_byte_count(e->writer), e->crf, rms};
+    GVC_TRY(gvc_resume_note(&e->options, &note, error));
     e->report.gop_count++;
     e->report.frame_count += group->count;
     e->report.worst_rms = fmax(e->report.worst_rms, rms);
@@ -343,7 +369,7 @@ static gvc_result add_images(encoder *e, size_t first, size_t *end, gvc_error *e
     gvc_result result = gvc_parallel_for(e->options.threads, count, chart_one, &context, error);
     while (result == GVC_OK && good < count && !context.unfit[good]) good++;
     if (result == GVC_OK) result = sample_charts(&context, good, error);
-    if (result == GVC_OK) {
+    if (result == GVC_OK && !gvc_resume_holds(&e->resume, group->first_frame)) {
         result = gvc_parallel_for(e->options.threads, good, fit_one, &context, error);
     }
     free_images(&context);
@@ -409,6 +435,7 @@ static gvc_result encode_batch(encoder *e, uint64_t first, size_t count, gvc_err
 static gvc_result encode_all(encoder *e, gvc_error *error) {
     uint64_t total = e->source->frame_count;
     GVC_TRY(gvc_scan(e->source, &e->options, e->facts, error));
+    GVC_TRY(gvc_resume_begin(&e->resume, e->partial, e->source, e->facts, &e->options, error));
     GVC_TRY(report_progress(e, 0, error));
     for (uint64_t first = 0; first < total; first += GVC_BATCH) {
         uint64_t left = total - first;
@@ -418,14 +445,18 @@ static gvc_result encode_all(encoder *e, gvc_error *error) {
     return gvc_writer_finish(e->writer, error);
 }
 
-gvc_result gvc_encode_tapped(const gvc_source *source, const gvc_sink *sink,
-                             const gvc_encode_options *options, const gvc_image_tap *tap,
-                             gvc_encode_report *report, gvc_error *error) {
+static gvc_result encode(const gvc_source *source, const gvc_sink *sink,
+                         const gvc_encode_options *options, const gvc_image_tap *tap,
+                         const gvc_partial *partial, gvc_encode_report *report, gvc_error *error) {
     GVC_TRY(check_options(options, source, error));
     encoder *e = gvc_alloc(1, sizeof *e);
     if (!e) return gvc_fail_memory(error);
-    *e = (encoder){
-        .source = source, .sink = sink, .tap = tap, .options = *options, .crf = FIRST_CRF};
+    *e = (encoder){.source = source,
+                   .sink = sink,
+                   .tap = tap,
+                   .options = *options,
+                   .crf = FIRST_CRF,
+                   .partial = partial};
     e->facts = gvc_alloc((size_t)source->frame_count, sizeof *e->facts);
     gvc_result result = e->facts ? GVC_OK : gvc_fail_memory(error);
     if (result == GVC_OK) result = gvc_cut_tracker(options, &e->tracker, error);
@@ -437,6 +468,7 @@ gvc_result gvc_encode_tapped(const gvc_source *source, const gvc_sink *sink,
         report->mean_crf /= (double)report->frame_count;
     }
     gvc_writer_destroy(&e->writer);
+    gvc_resume_free(&e->resume);
     gvc_batch_free(&e->batch);
     follow_no_more(e);
     gvc_group_free(&e->group);
@@ -447,8 +479,20 @@ gvc_result gvc_encode_tapped(const gvc_source *source, const gvc_sink *sink,
     return gvc_explain(error, result);
 }
 
+gvc_result gvc_encode_tapped(const gvc_source *source, const gvc_sink *sink,
+                             const gvc_encode_options *options, const gvc_image_tap *tap,
+                             gvc_encode_report *report, gvc_error *error) {
+    return encode(source, sink, options, tap, NULL, report, error);
+}
+
 gvc_result gvc_encode(const gvc_source *source, const gvc_sink *sink,
                       const gvc_encode_options *options, gvc_encode_report *report,
                       gvc_error *error) {
-    return gvc_encode_tapped(source, sink, options, NULL, report, error);
+    return encode(source, sink, options, NULL, NULL, report, error);
+}
+
+gvc_result gvc_encode_resume(const gvc_source *source, const gvc_sink *sink,
+                             const gvc_encode_options *options, const gvc_partial *partial,
+                             gvc_encode_report *report, gvc_error *error) {
+    return encode(source, sink, options, NULL, partial, report, error);
 }

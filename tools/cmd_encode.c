@@ -3,6 +3,7 @@
 #include "base/output.h"
 #include "cli.h"
 #include "frames.h"
+#include "partial.h"
 
 #include <getopt.h>
 #include <math.h>
@@ -16,7 +17,11 @@ static const char usage[] =
     "frame on standard input. Each must be one closed, oriented, manifold surface.\n"
     "\n"
     "  -o, --output FILE     where to write; - is standard output\n"
-    "  -f, --force           replace FILE if it exists\n"
+    "  -f, --force           replace FILE if it exists, and drop what a run that did not end has "
+    "left\n"
+    "      --resume          go on where a run that did not end has left off, with the same frames "
+    "and\n"
+    "                        options: the file will be the same as if nothing had happened\n"
     "  -e, --max-rms BOUND   RMS distance to hold in every group of frames: a share of the\n"
     "                        bounding box's diagonal (0.05%), or a length in the unit of the "
     "meshes\n"
@@ -32,6 +37,10 @@ static const char usage[] =
     "      --any-order       take files as given: no check of numbers\n"
     "  -j, --jobs N          threads (default: one per processor); never changes the output\n"
     "  -q, --quiet           no progress, no summary\n"
+    "\n"
+    "FILE is written as FILE.part, which 'gvc decode --keep-going' can read at any time, and gets "
+    "its\n"
+    "name at the end.\n"
     "\n"
     "The method itself, for experiments (docs/ablation.md); numbers are the defaults:\n"
     "\n"
@@ -51,6 +60,7 @@ enum {
     OPT_UNIT,
     OPT_NO_WELD,
     OPT_ANY_ORDER,
+    OPT_RESUME,
     OPT_PERSISTENCE,
     OPT_CURVATURE,
     OPT_PRIOR,
@@ -63,7 +73,8 @@ enum {
 typedef struct encode_arguments {
     gvc_encode_options options;
     const char *output;
-    bool force, quiet, any_order;
+    bool force, quiet, any_order, resume;
+    partial_file partial;
     cli_progress progress;
     bool scanning;
 } encode_arguments;
@@ -161,6 +172,9 @@ static int set_option(encode_arguments *a, int option, const char *value) {
     case OPT_NO_WELD:
         o->weld = false;
         return EXIT_DONE;
+    case OPT_RESUME:
+        a->resume = true;
+        return EXIT_DONE;
     case OPT_ANY_ORDER:
         a->any_order = true;
         return EXIT_DONE;
@@ -186,6 +200,7 @@ static int parse(encode_arguments *a, int argc, char **argv) {
         {"unit", required_argument, NULL, OPT_UNIT},
         {"no-weld", no_argument, NULL, OPT_NO_WELD},
         {"any-order", no_argument, NULL, OPT_ANY_ORDER},
+        {"resume", no_argument, NULL, OPT_RESUME},
         {"persistence", required_argument, NULL, OPT_PERSISTENCE},
         {"prior", required_argument, NULL, OPT_PRIOR},
         {"curvature", required_argument, NULL, OPT_CURVATURE},
@@ -217,28 +232,64 @@ static void summarise(const encode_arguments *a, const gvc_encode_report *report
             report->segment_count == 1 ? "" : "s", 100 * report->worst_rms, seconds);
 }
 
+static gvc_result on_journal(void *user, const char *line, gvc_error *error) {
+    encode_arguments *a = user;
+    return partial_note(&a->partial, line, error);
+}
+
+/* To standard output or a device: what it has got cannot be looked at again. */
+static gvc_result encode_stream(encode_arguments *a, const gvc_source *source,
+                                gvc_encode_report *report, gvc_error *error) {
+    gvc_output output;
+    gvc_sink sink = {.user = &output, .write = gvc_output_write};
+    gvc_result result = gvc_output_begin(a->output, a->force, &output, error);
+    if (result != GVC_OK) return result;
+    result = gvc_encode(source, &sink, &a->options, report, error);
+    if (result == GVC_OK) return gvc_output_end(&output, error);
+    gvc_output_discard(&output);
+    return result;
+}
+
+/* To a file of whose finished groups nothing is lost when this ends early. */
+static gvc_result encode_file(encode_arguments *a, const gvc_source *source,
+                              gvc_encode_report *report, gvc_error *error) {
+    partial_file *p = &a->partial;
+    gvc_sink sink = {.user = &p->output, .write = gvc_output_write};
+    gvc_result result = partial_begin(a->output, a->force, a->resume, p, error);
+    if (result != GVC_OK) {
+        if (result == GVC_ERROR_IO && !a->resume && strstr(error->message, "left by a run")) {
+            cli_warn("encode", "%s", "--resume goes on with it, -f begins anew");
+        }
+        return result;
+    }
+    a->options.journal = on_journal;
+    gvc_partial before = {.file = p->reader, .journal = p->journal_text};
+    result =
+        gvc_encode_resume(source, &sink, &a->options, p->reader ? &before : NULL, report, error);
+    if (result == GVC_OK) return partial_end(p, error);
+    bool worth_keeping =
+        result == GVC_ERROR_IO || result == GVC_ERROR_CANCELLED || result == GVC_ERROR_MEMORY;
+    if (partial_leave(p, worth_keeping) && !a->quiet) {
+        fprintf(stderr, "gvc encode: what is finished is kept as %s.part; --resume goes on\n",
+                a->output);
+    }
+    return result;
+}
+
 static int encode(encode_arguments *a, frame_list *list) {
     gvc_error error;
-    gvc_output output;
     gvc_encode_report report;
     double started = cli_now();
     gvc_error_init(&error);
     if (!a->force && cli_in_the_way("encode", a->output)) return EXIT_DATA;
-    if (gvc_output_begin(a->output, a->force, &output, &error) != GVC_OK) {
-        return cli_fail("encode", a->output, &error);
-    }
+    bool stream = gvc_output_is_stream(a->output);
+    if (stream && a->resume) return cli_usage("encode", "only a file can be resumed");
     gvc_source source = frame_list_source(list);
-    gvc_sink sink = {.user = &output, .write = gvc_output_write};
     a->scanning = true;
     cli_progress_begin(&a->progress, "reading", a->quiet);
-    gvc_result result = gvc_encode(&source, &sink, &a->options, &report, &error);
+    gvc_result result = stream ? encode_stream(a, &source, &report, &error)
+                               : encode_file(a, &source, &report, &error);
     cli_progress_end(&a->progress);
-    if (result == GVC_OK) {
-        gvc_output_sync(&output);
-        result = gvc_output_end(&output, &error);
-    } else {
-        gvc_output_discard(&output);
-    }
     if (result != GVC_OK) return cli_fail("encode", a->output, &error);
     summarise(a, &report, cli_now() - started);
     return EXIT_DONE;

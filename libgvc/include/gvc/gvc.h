@@ -150,6 +150,8 @@ GVC_API GVC_NODISCARD gvc_result gvc_mesh_distance(const gvc_mesh *first, const 
                                                    size_t samples, gvc_distance *distance,
                                                    gvc_error *error);
 
+typedef struct gvc_reader gvc_reader; /**< an opened file: parsed, immutable, shareable */
+
 /* ------------------------------------------------------------------------------------ encoding */
 
 /** Where frames come from. The encoder reads frames more than once and from several threads at a
@@ -198,6 +200,10 @@ typedef struct gvc_encode_options {
     bool (*progress)(void *user, gvc_stage stage, uint64_t done, uint64_t total);
     /** Warnings, one line without newline; frame or GVC_NO_FRAME. May be NULL. */
     void (*warn)(void *user, int64_t frame, const char *message);
+    /** Lines of a journal, without newline, for gvc_encode_resume: one at the beginning, and one
+     *  after each group of frames has gone into the sink. Called from the calling thread; a failure
+     *  ends the encode. May be NULL. */
+    gvc_result (*journal)(void *user, const char *line, gvc_error *error);
     void *user;
 } gvc_encode_options;
 
@@ -217,9 +223,23 @@ GVC_API GVC_NODISCARD gvc_result gvc_encode(const gvc_source *source, const gvc_
                                             const gvc_encode_options *options,
                                             gvc_encode_report *report, gvc_error *error);
 
+/** What an encode that ended early has left. */
+typedef struct gvc_partial {
+    const gvc_reader *file; /**< what its sink got, opened with keep_going */
+    const char *journal;    /**< its lines, each with a newline */
+} gvc_partial;
+
+/** Goes on with an encode that ended early; source and options must be the same. The sink gets the
+ *  file from its first byte on, and the journal all lines: the same bytes as if nothing had
+ *  happened. Frames of groups that are in `partial` are analysed again but not coded.
+ *  GVC_ERROR_ARGUMENT if source or options are not the same. */
+GVC_API GVC_NODISCARD gvc_result gvc_encode_resume(const gvc_source *source, const gvc_sink *sink,
+                                                   const gvc_encode_options *options,
+                                                   const gvc_partial *partial,
+                                                   gvc_encode_report *report, gvc_error *error);
+
 /* ------------------------------------------------------------------------------------ decoding */
 
-typedef struct gvc_reader gvc_reader;   /**< an opened file: parsed, immutable, shareable */
 typedef struct gvc_decoder gvc_decoder; /**< decodes frames of one reader; one thread at a time */
 
 /** Random-access input. `read` fills exactly `size` bytes at `offset` or fails. Must be thread-safe
