@@ -269,7 +269,7 @@ static gvc_result encode_file(encode_arguments *a, const gvc_source *source,
     if (result == GVC_OK) return partial_end(p, error);
     bool worth_keeping =
         result == GVC_ERROR_IO || result == GVC_ERROR_CANCELLED || result == GVC_ERROR_MEMORY;
-    if (partial_leave(p, worth_keeping) && !a->quiet) {
+    if (partial_leave(p, worth_keeping)) {
         fprintf(stderr, "gvc encode: what is finished is kept as %s.part; --resume goes on\n",
                 a->output);
     }

@@ -1,14 +1,17 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# cli_resume.sh GVC WORK [KILLS [SEED]]: an encode that is killed at any moment loses nothing that was finished, and
+# cli_resume.sh GVC WORK [KILLS [SEED [FRAMES]]]: an encode that is killed at any moment loses nothing that was finished, and
 # --resume goes on to the same bytes as an undisturbed run.
-kills=${3:-3}
+kills=${3:-1}
+frames_in=${5:-4}
 seed=${4:-$(awk 'BEGIN { srand(); print int(65536 * rand()) }')}
 . "$(dirname "$0")/common.sh"
 echo "seed $seed, $kills kills"
 
-run 0 "$gvc" synth -q --vertices 1500 --frames 20 --seed 3 -o 'long/%03d.off'
-options='-q -j1 --size 17 --crf 30 --gop 3'
+run 0 "$gvc" synth -q --vertices 1500 --frames "$frames_in" --seed 3 -o 'long/%03d.off'
+gop=2
+[ "$frames_in" -lt 12 ] || gop=3
+options="-q -j1 --size 17 --crf 30 --gop $gop"
 began=$(date +%s%N)
 run 0 "$gvc" encode $options long -o whole.gvc
 took=$(($(date +%s%N) - began))
@@ -35,7 +38,9 @@ check_partial() {
     finished=$(grep -c '^group' k.gvc.part-journal)
     frames=$(ls d | wc -l)
     echo "$last: $finished groups, $frames frames"
-    [ "$frames" -ge $((finished * 3 < 20 ? finished * 3 : 20)) ] || complain "$finished groups but $frames frames: $last"
+    least=$((finished * gop))
+    [ $least -le "$frames_in" ] || least=$frames_in
+    [ "$frames" -ge $least ] || complain "$finished groups but $frames frames: $last"
     for file in d/*; do [ ! -e "$file" ] || same "$file" "whole/${file#d/}"; done
     [ "$frames" -eq 0 ] || {
         run 0 "$gvc" repair -q k.gvc.part -o fixed.gvc
@@ -60,28 +65,29 @@ while [ $i -lt "$kills" ]; do
 done
 
 # Cut anywhere, as by a disk that lost what was written last: what is whole is taken, the rest is made anew.
-(ulimit -f 10 && exec "$gvc" encode $options long -o cut.gvc) >stdout.txt 2>stderr.txt
+limit=$(($(wc -c <whole.gvc) * 2 / 3 / 512))
+(ulimit -f $limit && exec "$gvc" encode $options long -o cut.gvc) >stdout.txt 2>stderr.txt
 last='encode to a full disk'
 says 'cannot write' cut.gvc.part
 present cut.gvc.part cut.gvc.part-journal
 absent cut.gvc
 run 1 "$gvc" encode $options long -o cut.gvc
 says cut.gvc.part --resume -f
-cp cut.gvc.part full.part
-cp cut.gvc.part-journal full.part-journal
-size=$(wc -c <full.part)
-for cut in 0 700 $((size / 2)) $((size - 1)); do
+cp cut.gvc.part full-part
+cp cut.gvc.part-journal full-journal
+size=$(wc -c <full-part)
+for cut in 700 $((size - 1)); do
     rm -f cut.gvc
-    head -c "$cut" full.part >cut.gvc.part
-    cp full.part-journal cut.gvc.part-journal
+    head -c "$cut" full-part >cut.gvc.part
+    cp full-journal cut.gvc.part-journal
     run 0 "$gvc" encode $options --resume long -o cut.gvc
     same cut.gvc whole.gvc
     no_leftovers
 done
-for cut in 0 40 $(($(wc -c <full.part-journal) - 7)); do
+for cut in $(($(wc -c <full-journal) - 7)); do
     rm -f cut.gvc
-    cp full.part cut.gvc.part
-    head -c "$cut" full.part-journal >cut.gvc.part-journal
+    cp full-part cut.gvc.part
+    head -c "$cut" full-journal >cut.gvc.part-journal
     run 0 "$gvc" encode $options --resume long -o cut.gvc
     same cut.gvc whole.gvc
 done
@@ -89,20 +95,20 @@ done
 # ---------------------------------------------------------------------------- what cannot be resumed
 restore() {
     rm -f cut.gvc
-    cp full.part cut.gvc.part
-    cp full.part-journal cut.gvc.part-journal
+    cp full-part cut.gvc.part
+    cp full-journal cut.gvc.part-journal
 }
 restore
-run 2 "$gvc" encode $options --gop 4 --resume long -o cut.gvc
-says 'cannot resume' gop=3 gop=4
-same cut.gvc.part full.part
-cp long/007.off kept.off
-cp long/008.off long/007.off
+run 2 "$gvc" encode $options --gop 5 --resume long -o cut.gvc
+says 'cannot resume' gop=$gop gop=5
+same cut.gvc.part full-part
+cp long/002.off kept.off
+cp long/003.off long/002.off
 run 2 "$gvc" encode $options --resume long -o cut.gvc
 says 'cannot resume' frames
-same cut.gvc.part full.part
-same cut.gvc.part-journal full.part-journal
-mv kept.off long/007.off
+same cut.gvc.part full-part
+same cut.gvc.part-journal full-journal
+mv kept.off long/002.off
 run 2 "$gvc" encode $options --resume long -o -
 says 'only a file'
 
