@@ -2,6 +2,8 @@
 /** @file partial.c  A .gvc file being encoded, and its journal. */
 #include "partial.h"
 
+#include "base/result.h"
+
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -71,13 +73,14 @@ gvc_result partial_begin(const char *path, bool force, bool resume, partial_file
 }
 
 gvc_result partial_note(partial_file *p, const char *line, gvc_error *error) {
-    p->lines++;
     gvc_output_sync(&p->output);
     GVC_TRY(gvc_output_write(&p->output, "", 0, error)); /* tells of a failure */
     GVC_TRY(gvc_output_write(&p->journal, line, strlen(line), error));
     GVC_TRY(gvc_output_write(&p->journal, "\n", 1, error));
     gvc_output_sync(&p->journal);
-    return gvc_output_write(&p->journal, "", 0, error);
+    GVC_TRY(gvc_output_write(&p->journal, "", 0, error));
+    p->lines++;
+    return GVC_OK;
 }
 
 static void forget(partial_file *p) {

@@ -12,7 +12,7 @@ typedef struct partial_file {
     gvc_io io; /**< what an earlier run left, read through the descriptor that holds the lock */
     gvc_reader *reader; /**< of it; NULL if there is nothing to resume */
     char *journal_text; /**< of it */
-    uint64_t lines;     /**< of the journal, in this run */
+    uint64_t lines;     /**< of the journal that are on the disk */
     bool resumed;       /**< an earlier run has left something */
 } partial_file;
 
