@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "chart/sample.h"
+#include "checkpoint.h"
 #include "encode/batch.h"
 #include "encode/cut.h"
 #include "encode/group.h"
@@ -235,13 +236,17 @@ static gvc_cutter cutter_of(const encoder *e) {
                         .size = e->size ? e->size : e->options.image_size};
 }
 
+static gvc_result begin_group(encoder *e, gvc_error *error) {
+    uint32_t padded = (e->size + BLOCK - 1) / BLOCK * BLOCK;
+    gvc_picture_layout layout = {padded, padded};
+    return gvc_group_create(e->options.gop, layout, &e->group, error);
+}
+
 /* Settles the image size with the first frames cut, and with it what depends on it. */
 static gvc_result settle_size(encoder *e, size_t first, size_t end, gvc_error *error) {
     e->size = e->options.image_size;
     if (e->size == 0) GVC_TRY(choose_size(e, first, end, error));
-    uint32_t padded = (e->size + BLOCK - 1) / BLOCK * BLOCK;
-    gvc_picture_layout layout = {padded, padded};
-    GVC_TRY(gvc_group_create(e->options.gop, layout, &e->group, error));
+    GVC_TRY(begin_group(e, error));
     return gvc_segment_resize(&e->segment, &e->batch.work[first], e->size, error);
 }
 
@@ -388,6 +393,46 @@ static gvc_result add_images(encoder *e, size_t first, size_t *end, gvc_error *e
     return GVC_OK;
 }
 
+/* ---------------------------------------------------------------------------------- checkpoints */
+
+static gvc_checkpoint checkpoint_of(encoder *e, uint64_t *next_frame) {
+    return (gvc_checkpoint){.next_frame = next_frame,
+                            .size = &e->size,
+                            .crf = &e->crf,
+                            .followed = &e->followed,
+                            .report = &e->report,
+                            .segment = &e->segment,
+                            .tracker = e->tracker};
+}
+
+static gvc_result save_checkpoint(encoder *e, uint64_t next_frame, gvc_error *error) {
+    const gvc_checkpoint checkpoint = checkpoint_of(e, &next_frame);
+    return gvc_checkpoint_save(&checkpoint, &e->options, error);
+}
+
+/* Begins behind the last checkpoint of an encode that ended early, if there is one whose groups are
+ * all there. `*first` is the frame to go on with. */
+static gvc_result load_checkpoint(encoder *e, uint64_t *first, gvc_error *error) {
+    const gvc_partial *partial = e->partial;
+    const gvc_checkpoint checkpoint = checkpoint_of(e, first);
+    uint64_t frame;
+    bool loaded;
+    if (!partial || !partial->checkpoint ||
+        !gvc_checkpoint_frame(partial->checkpoint, partial->checkpoint_size, &frame) ||
+        !gvc_resume_can_skip(&e->resume, frame)) {
+        return GVC_OK;
+    }
+    GVC_TRY(gvc_checkpoint_load(&checkpoint, partial->checkpoint, partial->checkpoint_size, &loaded,
+                                error));
+    if (!loaded) return GVC_OK;
+    GVC_TRY(begin_group(e, error));
+    GVC_TRY(gvc_load_frame(e->source, frame - 1, e->options.weld, &e->batch.before, NULL, error));
+    gvc_config config;
+    describe(e, &config);
+    GVC_TRY(gvc_resume_skip(&e->resume, frame, &config, &e->options, e->sink, &e->writer, error));
+    return report_progress(e, frame, error);
+}
+
 /* Cuts as many frames of the batch from `first` on as the segment and the group take, then makes
  * their images. */
 static gvc_result encode_run(encoder *e, size_t first, size_t *end, gvc_error *error) {
@@ -418,7 +463,8 @@ static gvc_result encode_run(encoder *e, size_t first, size_t *end, gvc_error *e
         GVC_TRY(flush_group(e, error));
         e->segment.end_frame = e->batch.work[*end].number; /* it starts a segment */
     }
-    return e->group.count == e->options.gop ? flush_group(e, error) : GVC_OK;
+    if (e->group.count == e->options.gop) GVC_TRY(flush_group(e, error));
+    return e->group.count == 0 ? save_checkpoint(e, e->batch.first + *end, error) : GVC_OK;
 }
 
 static gvc_result encode_batch(encoder *e, uint64_t first, size_t count, gvc_error *error) {
@@ -437,9 +483,13 @@ static gvc_result encode_all(encoder *e, gvc_error *error) {
     GVC_TRY(gvc_scan(e->source, &e->options, e->facts, error));
     GVC_TRY(gvc_resume_begin(&e->resume, e->partial, e->source, e->facts, &e->options, error));
     GVC_TRY(report_progress(e, 0, error));
-    for (uint64_t first = 0; first < total; first += GVC_BATCH) {
-        uint64_t left = total - first;
-        GVC_TRY(encode_batch(e, first, left < GVC_BATCH ? (size_t)left : GVC_BATCH, error));
+    uint64_t first = 0;
+    GVC_TRY(load_checkpoint(e, &first, error));
+    while (first < total) { /* batches end where they would without a checkpoint */
+        uint64_t end = first - first % GVC_BATCH + GVC_BATCH;
+        if (end > total) end = total;
+        GVC_TRY(encode_batch(e, first, (size_t)(end - first), error));
+        first = end;
     }
     GVC_TRY(flush_group(e, error));
     return gvc_writer_finish(e->writer, error);

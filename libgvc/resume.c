@@ -233,6 +233,33 @@ static gvc_result compare_config(const gvc_config *config, const gvc_config *bef
     return result;
 }
 
+static gvc_result begin_writer(const gvc_resume *resume, const gvc_config *config,
+                               const gvc_sink *sink, gvc_writer **writer, gvc_error *error) {
+    const gvc_demux *demux = &resume->file->demux;
+    GVC_TRY(compare_config(config, &demux->config, error));
+    return gvc_writer_create(sink, config, demux->avc_config, demux->avc_config_size, writer,
+                             error);
+}
+
+bool gvc_resume_can_skip(const gvc_resume *resume, uint64_t frame) {
+    for (size_t i = 0; i < resume->count; i++) {
+        if (resume->group[i].first_frame + resume->group[i].frame_count == frame) return true;
+    }
+    return false;
+}
+
+gvc_result gvc_resume_skip(gvc_resume *resume, uint64_t frame, const gvc_config *config,
+                           const gvc_encode_options *options, const gvc_sink *sink,
+                           gvc_writer **writer, gvc_error *error) {
+    const gvc_reader *file = resume->file;
+    GVC_TRY(begin_writer(resume, config, sink, writer, error));
+    while (resume->next < resume->count && resume->group[resume->next].first_frame < frame) {
+        GVC_TRY(gvc_writer_copy(*writer, &file->demux, &file->io, resume->next, error));
+        GVC_TRY(gvc_resume_note(options, &resume->group[resume->next++], error));
+    }
+    return GVC_OK;
+}
+
 gvc_result gvc_resume_take(gvc_resume *resume, const gvc_group *group, const gvc_config *config,
                            const gvc_sink *sink, gvc_writer **writer, gvc_finished_group *finished,
                            gvc_error *error) {
@@ -246,11 +273,7 @@ gvc_result gvc_resume_take(gvc_resume *resume, const gvc_group *group, const gvc
     bool same = gvc_shape_equal(&before, &group->shape);
     gvc_shape_free(&before);
     if (!same) return differs(group->first_frame, "the cut", error);
-    if (!*writer) {
-        GVC_TRY(compare_config(config, &demux->config, error));
-        GVC_TRY(gvc_writer_create(sink, config, demux->avc_config, demux->avc_config_size, writer,
-                                  error));
-    }
+    if (!*writer) GVC_TRY(begin_writer(resume, config, sink, writer, error));
     return gvc_writer_copy(*writer, demux, &resume->file->io, resume->next++, error);
 }
 

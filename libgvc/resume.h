@@ -5,7 +5,7 @@
  * line that says what is encoded and how, and a line for each group that it has written, with what
  * the next group's coding depends on and the file does not tell. To resume, the frames of finished
  * groups are analysed again, so that the tracker and the segment are as they were; their coding is
- * skipped, and their fragments are copied.
+ * skipped, and their fragments are copied. A checkpoint spares the analysis of what was before it.
  */
 #ifndef GVC_RESUME_H
 #define GVC_RESUME_H
@@ -47,6 +47,13 @@ static inline bool gvc_resume_holds(const gvc_resume *resume, uint64_t first_fra
 gvc_result gvc_resume_take(gvc_resume *resume, const gvc_group *group, const gvc_config *config,
                            const gvc_sink *sink, gvc_writer **writer, gvc_finished_group *finished,
                            gvc_error *error);
+
+/** Takes the groups before a frame over as they are; gvc_resume_can_skip must be true of it. */
+gvc_result gvc_resume_skip(gvc_resume *resume, uint64_t frame, const gvc_config *config,
+                           const gvc_encode_options *options, const gvc_sink *sink,
+                           gvc_writer **writer, gvc_error *error);
+/** Whether that can be done. */
+bool gvc_resume_can_skip(const gvc_resume *resume, uint64_t frame);
 
 /** Parameter sets of groups coded now must be those of the file. */
 gvc_result gvc_resume_check_coded(const gvc_resume *resume, const gvc_coded_group *coded,

@@ -237,6 +237,11 @@ static gvc_result on_journal(void *user, const char *line, gvc_error *error) {
     return partial_note(&a->partial, line, error);
 }
 
+static gvc_result on_checkpoint(void *user, const void *data, size_t size, gvc_error *error) {
+    encode_arguments *a = user;
+    return partial_checkpoint(&a->partial, data, size, error);
+}
+
 /* To standard output or a device: what it has got cannot be looked at again. */
 static gvc_result encode_stream(encode_arguments *a, const gvc_source *source,
                                 gvc_encode_report *report, gvc_error *error) {
@@ -263,7 +268,11 @@ static gvc_result encode_file(encode_arguments *a, const gvc_source *source,
         return result;
     }
     a->options.journal = on_journal;
-    gvc_partial before = {.file = p->reader, .journal = p->journal_text};
+    a->options.checkpoint = on_checkpoint;
+    gvc_partial before = {.file = p->reader,
+                          .journal = p->journal_text,
+                          .checkpoint = p->state.size > 0 ? p->state.data : NULL,
+                          .checkpoint_size = p->state.size};
     result =
         gvc_encode_resume(source, &sink, &a->options, p->reader ? &before : NULL, report, error);
     if (result == GVC_OK) return partial_end(p, error);

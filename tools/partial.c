@@ -5,6 +5,7 @@
 #include "base/result.h"
 
 #include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -12,6 +13,8 @@
 
 #define PART_SUFFIX ".part"
 #define JOURNAL_SUFFIX ".part-journal"
+#define STATE_SUFFIX ".part-state"
+#define NEW_SUFFIX ".new"
 
 /* A lock of this kind is gone as soon as any descriptor of the file is closed; so the file is not
  * opened a second time. */
@@ -37,6 +40,30 @@ static gvc_result read_journal(partial_file *p, gvc_error *error) {
     if (!p->journal_text) return gvc_fail_memory(error);
     p->journal_text[size] = '\0';
     return read_part(&p->journal, 0, p->journal_text, size, error);
+}
+
+/* A state that cannot be read is as good as none. */
+static void read_state(partial_file *p) {
+    FILE *file = fopen(p->state_path, "rb");
+    char chunk[4096];
+    if (!file) return;
+    for (size_t got; (got = fread(chunk, 1, sizeof chunk, file)) > 0;) {
+        gvc_write_bytes(&p->state, chunk, got);
+    }
+    if (ferror(file) || p->state.failed) gvc_buffer_clear(&p->state);
+    (void)fclose(file);
+}
+
+static void remove_state(partial_file *p) {
+    if (p->state_path) (void)unlink(p->state_path);
+    if (p->state_temporary) (void)unlink(p->state_temporary);
+}
+
+static char *join(const char *path, const char *suffix) {
+    size_t room = strlen(path) + strlen(suffix) + 1;
+    char *joined = malloc(room);
+    if (joined) snprintf(joined, room, "%s%s", path, suffix);
+    return joined;
 }
 
 /* Opens what an earlier run has left, if its head is there. */
@@ -66,6 +93,13 @@ gvc_result partial_begin(const char *path, bool force, bool resume, partial_file
     p->resumed = p->output.there > 0;
     leftover = p->resumed ? GVC_LEFTOVER_KEEP : GVC_LEFTOVER_DROP;
     result = gvc_output_begin_known(path, JOURNAL_SUFFIX, force, leftover, &p->journal, error);
+    p->state_path = join(path, STATE_SUFFIX);
+    p->state_temporary = join(path, STATE_SUFFIX NEW_SUFFIX);
+    if (result == GVC_OK && (!p->state_path || !p->state_temporary)) {
+        result = gvc_fail_memory(error);
+    }
+    if (result == GVC_OK && p->resumed) read_state(p);
+    if (result == GVC_OK && !p->resumed) remove_state(p);
     if (result == GVC_OK && p->resumed) result = read_journal(p, error);
     if (result == GVC_OK && p->resumed) result = open_left(p, error);
     if (result != GVC_OK) partial_leave(p, false);
@@ -83,22 +117,39 @@ gvc_result partial_note(partial_file *p, const char *line, gvc_error *error) {
     return GVC_OK;
 }
 
+gvc_result partial_checkpoint(partial_file *p, const void *data, size_t size, gvc_error *error) {
+    gvc_output output;
+    GVC_TRY(
+        gvc_output_begin_known(p->state_path, NEW_SUFFIX, true, GVC_LEFTOVER_DROP, &output, error));
+    gvc_result result = gvc_output_write(&output, data, size, error);
+    if (result != GVC_OK) {
+        gvc_output_discard(&output);
+        return result;
+    }
+    gvc_output_sync(&output);
+    return gvc_output_end(&output, error);
+}
+
 static void forget(partial_file *p) {
     gvc_reader_close(&p->reader);
     free(p->journal_text);
     p->journal_text = NULL;
+    gvc_buffer_free(&p->state);
+    free(p->state_path);
+    free(p->state_temporary);
+    p->state_path = p->state_temporary = NULL;
 }
 
 gvc_result partial_end(partial_file *p, gvc_error *error) {
-    forget(p);
     gvc_output_sync(&p->output);
     gvc_result result = gvc_output_end(&p->output, error);
     gvc_output_discard(&p->journal);
+    remove_state(p);
+    forget(p);
     return result;
 }
 
 bool partial_leave(partial_file *p, bool worth_keeping) {
-    forget(p);
     bool keep = p->resumed || (worth_keeping && p->lines > 1);
     if (keep) {
         gvc_output_leave(&p->output);
@@ -106,6 +157,8 @@ bool partial_leave(partial_file *p, bool worth_keeping) {
     } else {
         gvc_output_discard(&p->journal);
         gvc_output_discard(&p->output);
+        remove_state(p);
     }
+    forget(p);
     return keep;
 }

@@ -51,7 +51,7 @@ check_partial() {
 i=0
 while [ $i -lt "$kills" ]; do
     i=$((i + 1))
-    rm -rf k.gvc k.gvc.part k.gvc.part-journal d
+    rm -rf k.gvc k.gvc.part* d
     delay=$(awk "BEGIN { srand($seed + $i); print rand() * $took / 1e9 }")
     killed "$delay"
     check_partial
@@ -75,16 +75,18 @@ run 1 "$gvc" encode $options long -o cut.gvc
 says cut.gvc.part --resume -f
 cp cut.gvc.part full-part
 cp cut.gvc.part-journal full-journal
+cp cut.gvc.part-state full-state
 size=$(wc -c <full-part)
 for cut in 700 $((size - 1)); do
     rm -f cut.gvc
     head -c "$cut" full-part >cut.gvc.part
     cp full-journal cut.gvc.part-journal
+    cp full-state cut.gvc.part-state
     run 0 "$gvc" encode $options --resume long -o cut.gvc
     same cut.gvc whole.gvc
     no_leftovers
 done
-for cut in $(($(wc -c <full-journal) - 7)); do
+for cut in $(($(wc -c <full-journal) - 7)); do # and without a state all is analysed again
     rm -f cut.gvc
     cp full-part cut.gvc.part
     head -c "$cut" full-journal >cut.gvc.part-journal
@@ -97,6 +99,7 @@ restore() {
     rm -f cut.gvc
     cp full-part cut.gvc.part
     cp full-journal cut.gvc.part-journal
+    cp full-state cut.gvc.part-state
 }
 restore
 run 2 "$gvc" encode $options --gop 5 --resume long -o cut.gvc

@@ -204,6 +204,9 @@ typedef struct gvc_encode_options {
      *  after each group of frames has gone into the sink. Called from the calling thread; a failure
      *  ends the encode. May be NULL. */
     gvc_result (*journal)(void *user, const char *line, gvc_error *error);
+    /** State between two groups, some hundred kilobytes; the last one given lets gvc_encode_resume
+     *  begin there. Good only for the same build on the same machine. May be NULL. */
+    gvc_result (*checkpoint)(void *user, const void *data, size_t size, gvc_error *error);
     void *user;
 } gvc_encode_options;
 
@@ -227,11 +230,14 @@ GVC_API GVC_NODISCARD gvc_result gvc_encode(const gvc_source *source, const gvc_
 typedef struct gvc_partial {
     const gvc_reader *file; /**< what its sink got, opened with keep_going */
     const char *journal;    /**< its lines, each with a newline */
+    const void *checkpoint; /**< its last state; NULL: frames before are analysed again, which gives
+                                 the same bytes, but takes most of the time of an encode */
+    size_t checkpoint_size;
 } gvc_partial;
 
 /** Goes on with an encode that ended early; source and options must be the same. The sink gets the
  *  file from its first byte on, and the journal all lines: the same bytes as if nothing had
- *  happened. Frames of groups that are in `partial` are analysed again but not coded.
+ *  happened. Groups of `partial` behind its checkpoint are analysed again but not coded.
  *  GVC_ERROR_ARGUMENT if source or options are not the same. */
 GVC_API GVC_NODISCARD gvc_result gvc_encode_resume(const gvc_source *source, const gvc_sink *sink,
                                                    const gvc_encode_options *options,
