@@ -11,7 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LINE_SIZE = 640, DIGEST_TEXT = 64, NUMBER_TEXT = 40 };
+/* A dozen numbers of at most 24 characters with their names fit in the options. */
+enum { LINE_SIZE = 1024, OPTIONS_SIZE = 768, DIGEST_TEXT = 64, NUMBER_TEXT = 40 };
 
 /* ---------------------------------------------------------------------------------------- lines */
 
@@ -89,6 +90,10 @@ static void format_options(const gvc_encode_options *o, char *text, size_t size)
     append_number(text, size, "persistence", o->persistence);
     append_number(text, size, "prior", o->prior_weight);
     append_number(text, size, "curvature", o->curvature_weight);
+    append_number(text, size, "shortest", o->shortest_weight);
+    append_number(text, size, "lambda", o->lambda);
+    append_number(text, size, "interior", o->interior_share);
+    append_number(text, size, "registration", o->registration);
     for (char *c = text; *c; c++) { /* the unit may hold anything */
         if ((unsigned char)*c < ' ') *c = '?';
     }
@@ -117,6 +122,16 @@ static gvc_result digest_source(const gvc_source *source, const gvc_scan_frame *
     return GVC_OK;
 }
 
+/* Moves both to the first word in which they differ. */
+static void skip_same(const char **a, const char **b) {
+    for (;;) {
+        size_t length = strcspn(*a, " ");
+        if (strncmp(*a, *b, length + 1) != 0 || (*a)[length] == '\0') return;
+        *a += length + 1;
+        *b += length + 1;
+    }
+}
+
 static gvc_result compare_first(const char *journal, const char *text, const char *options,
                                 gvc_error *error) {
     char before[LINE_SIZE];
@@ -124,8 +139,10 @@ static gvc_result compare_first(const char *journal, const char *text, const cha
     if (strcmp(before, text) == 0) return GVC_OK;
     const char *then = strstr(before, "libgvc=");
     if (then && strcmp(then, options) != 0) {
+        skip_same(&then, &options);
         return gvc_fail(error, GVC_ERROR_ARGUMENT,
-                        "cannot resume: the options were '%s', now they are '%s'", then, options);
+                        "cannot resume: the encode began with %.*s, now it is %.*s",
+                        (int)strcspn(then, " "), then, (int)strcspn(options, " "), options);
     }
     return gvc_fail(error, GVC_ERROR_ARGUMENT,
                     "cannot resume: the frames are not those that the encode began with");
@@ -187,7 +204,7 @@ cleanup:
 gvc_result gvc_resume_begin(gvc_resume *resume, const gvc_partial *partial,
                             const gvc_source *source, const gvc_scan_frame *facts,
                             const gvc_encode_options *options, gvc_error *error) {
-    char settings[LINE_SIZE / 2], digest[DIGEST_TEXT + 1], text[LINE_SIZE];
+    char settings[OPTIONS_SIZE], digest[DIGEST_TEXT + 1], text[LINE_SIZE];
     if (!partial && !options->journal) return GVC_OK;
     format_options(options, settings, sizeof settings);
     GVC_TRY(digest_source(source, facts, digest, error));
