@@ -14,7 +14,7 @@
 
 #include <time.h>
 
-enum { FRAMES = 9, GOP = 3, CHANGES = 60, CUTS = 20 };
+enum { FRAMES = 6, GOP = 3, CHANGES = 40, CUTS = 12 };
 
 static gvc_result keep_bytes(void *user, const void *data, size_t size, gvc_error *error) {
     (void)error;
