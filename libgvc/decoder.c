@@ -18,6 +18,7 @@
 #include <string.h>
 
 #define NO_FRAGMENT SIZE_MAX
+#define NO_FRAME UINT64_MAX
 
 struct gvc_decoder {
     const gvc_reader *reader;
@@ -32,9 +33,13 @@ struct gvc_decoder {
     gvc_buffer sample;
     uint16_t *luma; /* last picture received: 3 planes, one above the other */
     gvc_picture_layout layout;
-    size_t sent; /* samples of it fed to the H.264 decoder */
+    size_t sent;     /* samples of it fed to the H.264 decoder, or left out because damaged */
+    size_t end;      /* samples of it that can be fed: all, until one proves to be of no use */
+    size_t restarts; /* how often that happened */
     bool flushed;
-    uint64_t next_frame; /* presentation number of the next picture to come out */
+    uint64_t next_frame; /* pictures from here on have not come out yet */
+    uint64_t shown;      /* the frame whose picture is in `luma`; NO_FRAME if there is none */
+    gvc_error defect;    /* the first in the pictures of the fragment; GVC_OK if there is none */
 
     uint16_t *codes; /* handed out by gvc_decoder_codes */
 };
@@ -120,55 +125,110 @@ void gvc_decoder_destroy(gvc_decoder **decoder) {
 
 /* ------------------------------------------------------------------------------------ pictures */
 
+/* A damaged picture costs those that are predicted from it. Which these are is not looked for: the
+ * picture is left out, decoding goes on as far as the codec will, and the digest of each frame
+ * proves whether it came out right (10.3). The first defect is what frames that are lost get told.
+ */
+static void note(gvc_decoder *decoder, const gvc_error *defect) {
+    if (decoder->defect.code == GVC_OK) decoder->defect = *defect;
+}
+
+static gvc_result tell_defect(const gvc_decoder *decoder, gvc_error *error) {
+    if (error) *error = decoder->defect;
+    return decoder->defect.code;
+}
+
+static void rewind_video(gvc_decoder *decoder) {
+    gvc_h264_decoder_reset(decoder->h264);
+    decoder->sent = 0;
+    decoder->flushed = false;
+    decoder->next_frame = decoder->reader->demux.fragment[decoder->fragment].first_frame;
+    decoder->shown = NO_FRAME;
+}
+
+/* The codec gave up. What it had taken before can be had if it is told that the group ends there.
+ */
+static gvc_result end_before(gvc_decoder *decoder, const gvc_error *defect, gvc_error *error) {
+    note(decoder, defect);
+    if (defect->code != GVC_ERROR_CORRUPT || decoder->sent == 0) {
+        return tell_defect(decoder, error);
+    }
+    size_t fewer = decoder->end - (decoder->sent < decoder->end ? decoder->sent : decoder->end - 1);
+    size_t least = (size_t)1 << decoder->restarts; /* so that a hostile file costs no square */
+    if (fewer < least / 2) fewer = least / 2;
+    decoder->end = fewer < decoder->end ? decoder->end - fewer : 0;
+    if (decoder->restarts < 32) decoder->restarts++;
+    rewind_video(decoder);
+    return GVC_OK;
+}
+
 /* Feeds the next packet of the fragment, or the end of it. */
 static gvc_result feed(gvc_decoder *decoder, gvc_error *error) {
     const gvc_demux *demux = &decoder->reader->demux;
     const gvc_fragment_entry *fragment = &demux->fragment[decoder->fragment];
-    if (decoder->sent == fragment->frame_count) {
-        if (decoder->flushed) {
-            return gvc_fail(error, GVC_ERROR_CORRUPT,
-                            "the video holds fewer pictures than samples");
-        }
+    gvc_error defect;
+    gvc_error_init(&defect);
+    if (decoder->sent == decoder->end) {
         decoder->flushed = true;
         return gvc_h264_decoder_flush(decoder->h264, error);
     }
     size_t index = fragment->first_sample[GVC_TRACK_GEOMETRY] + decoder->sent;
     const gvc_sample_entry *sample = &demux->sample[GVC_TRACK_GEOMETRY][index];
-    GVC_TRY(gvc_demux_read(demux, &decoder->reader->io, GVC_TRACK_GEOMETRY, index, &decoder->sample,
-                           error));
-    decoder->sent++;
-    gvc_result result =
-        gvc_h264_decoder_send(decoder->h264, decoder->sample.data, decoder->sample.size,
-                              (int64_t)sample->presentation, error);
-    if (result != GVC_OK && error && error->offset == GVC_NO_OFFSET) error->offset = sample->offset;
-    return result;
+    gvc_result result = gvc_demux_read(demux, &decoder->reader->io, GVC_TRACK_GEOMETRY, index,
+                                       &decoder->sample, &defect);
+    if (result == GVC_ERROR_CORRUPT && decoder->sent > 0) {
+        note(decoder, &defect);
+        decoder->sent++;
+        return GVC_OK;
+    }
+    if (result == GVC_OK) {
+        result = gvc_h264_decoder_send(decoder->h264, decoder->sample.data, decoder->sample.size,
+                                       (int64_t)sample->presentation, &defect);
+        if (result == GVC_OK) {
+            decoder->sent++;
+            return GVC_OK;
+        }
+        if (defect.offset == GVC_NO_OFFSET) defect.offset = sample->offset;
+        if (defect.frame == GVC_NO_FRAME) defect.frame = (int64_t)sample->presentation;
+    }
+    return end_before(decoder, &defect, error);
 }
 
-/* Decodes up to and including the picture of `frame`. */
-static gvc_result decode_picture(gvc_decoder *decoder, uint64_t frame, gvc_error *error) {
-    while (decoder->next_frame <= frame) {
-        int64_t presentation;
-        bool available;
-        GVC_TRY(gvc_h264_decoder_receive(decoder->h264, decoder->luma, &presentation, &available,
-                                         error));
-        if (!available) {
-            GVC_TRY(feed(decoder, error));
-        } else if ((uint64_t)presentation != decoder->next_frame) {
+/* Takes a picture that is ready, or feeds the codec so that one may be. */
+static gvc_result step(gvc_decoder *decoder, gvc_error *error) {
+    gvc_error defect;
+    gvc_error_init(&defect);
+    int64_t presentation;
+    bool available;
+    decoder->shown = NO_FRAME;
+    gvc_result result =
+        gvc_h264_decoder_receive(decoder->h264, decoder->luma, &presentation, &available, &defect);
+    if (result != GVC_OK) return end_before(decoder, &defect, error);
+    if (available && (uint64_t)presentation >= decoder->next_frame) {
+        bool follows = (uint64_t)presentation == decoder->next_frame;
+        if (!follows && decoder->defect.code == GVC_OK) {
             return gvc_fail(error, GVC_ERROR_CORRUPT, "a picture is missing before frame %lld",
                             (long long)presentation);
-        } else {
-            decoder->next_frame++;
         }
+        decoder->shown = (uint64_t)presentation;
+        decoder->next_frame = decoder->shown + 1;
+        return GVC_OK;
     }
-    return GVC_OK;
+    if (available) {
+        return gvc_fail(error, GVC_ERROR_CORRUPT, "the picture of frame %lld comes too late",
+                        (long long)presentation);
+    }
+    if (!decoder->flushed) return feed(decoder, error);
+    if (decoder->defect.code != GVC_OK) return tell_defect(decoder, error);
+    return gvc_fail(error, GVC_ERROR_CORRUPT, "the video holds fewer pictures than samples");
 }
 
-/* Starts a fragment's video from its beginning. */
-static void restart_video(gvc_decoder *decoder) {
-    gvc_h264_decoder_reset(decoder->h264);
-    decoder->sent = 0;
-    decoder->flushed = false;
-    decoder->next_frame = decoder->reader->demux.fragment[decoder->fragment].first_frame;
+/* Leaves the picture of `frame` in decoder->luma. */
+static gvc_result seek_picture(gvc_decoder *decoder, uint64_t frame, gvc_error *error) {
+    if (decoder->shown == frame) return GVC_OK;
+    if (decoder->next_frame > frame) rewind_video(decoder);
+    while (decoder->next_frame <= frame) GVC_TRY(step(decoder, error));
+    return decoder->shown == frame ? GVC_OK : tell_defect(decoder, error);
 }
 
 /* -------------------------------------------------------------------------------------- shapes */
@@ -183,14 +243,23 @@ static gvc_result build_welds(gvc_decoder *decoder, gvc_error *error) {
 }
 
 /* Begins another fragment, of which only the number is known. */
-static gvc_result begin_fragment(gvc_decoder *decoder, size_t fragment, gvc_error *error) {
+static gvc_result set_fragment(gvc_decoder *decoder, size_t fragment, gvc_error *error) {
     forget_shape(decoder);
     decoder->fragment = fragment;
     GVC_TRY(gvc_reader_shape(decoder->reader, fragment, &decoder->shape, error));
     GVC_TRY(build_welds(decoder, error));
     if (decoder->is_exact) return gvc_exact_decoder_begin(&decoder->exact, &decoder->shape, error);
-    restart_video(decoder);
+    decoder->end = decoder->reader->demux.fragment[fragment].frame_count;
+    decoder->restarts = 0;
+    gvc_error_init(&decoder->defect);
+    rewind_video(decoder);
     return GVC_OK;
+}
+
+static gvc_result begin_fragment(gvc_decoder *decoder, size_t fragment, gvc_error *error) {
+    gvc_result result = set_fragment(decoder, fragment, error);
+    if (result != GVC_OK) forget_fragment(decoder);
+    return result;
 }
 
 /* Leaves the codes of `frame` of the fragment at hand in decoder->exact, or its picture in
@@ -200,8 +269,7 @@ static gvc_result seek_codes(gvc_decoder *decoder, uint64_t frame, gvc_error *er
         return gvc_exact_decoder_seek(&decoder->exact, decoder->reader, decoder->fragment, frame,
                                       &decoder->shape, error);
     }
-    if (decoder->next_frame > frame) restart_video(decoder);
-    return decode_picture(decoder, frame, error);
+    return seek_picture(decoder, frame, error);
 }
 
 /* Copies the codes of a chart of the frame at hand to `plane`. */
@@ -264,7 +332,10 @@ static gvc_result rebuild_frame(gvc_decoder *decoder, const uint8_t expected[8],
     uint8_t got[32];
     gvc_sha256_end(digest, got);
     if (result == GVC_OK && memcmp(got, expected, 8) != 0) {
-        result = gvc_fail(error, GVC_ERROR_CORRUPT, "the decoded frame does not match its digest");
+        result = decoder->defect.code != GVC_OK ? tell_defect(decoder, error)
+                                                : gvc_fail(error, GVC_ERROR_CORRUPT,
+                                                           "the decoded frame does not match its "
+                                                           "digest");
     }
     if (result != GVC_OK) gvc_mesh_destroy(mesh);
     return result;
@@ -292,14 +363,11 @@ static gvc_result seek(gvc_decoder *decoder, uint64_t frame, gvc_shape_frame *fa
     size_t fragment;
     gvc_shape shape = {0};
     GVC_TRY(gvc_reader_find(decoder->reader, frame, &fragment, error));
-    gvc_result result = GVC_OK;
-    if (decoder->fragment != fragment) result = begin_fragment(decoder, fragment, error);
-    if (result == GVC_OK) {
-        result = gvc_reader_record(decoder->reader, fragment, frame, &shape, facts, error);
-        gvc_shape_free(&shape);
-    }
+    if (decoder->fragment != fragment) GVC_TRY(begin_fragment(decoder, fragment, error));
+    gvc_result result = gvc_reader_record(decoder->reader, fragment, frame, &shape, facts, error);
+    gvc_shape_free(&shape);
     if (result == GVC_OK) result = seek_codes(decoder, frame, error);
-    if (result != GVC_OK) forget_fragment(decoder);
+    if (result != GVC_OK && result != GVC_ERROR_CORRUPT) forget_fragment(decoder);
     return result;
 }
 

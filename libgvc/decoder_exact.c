@@ -30,8 +30,10 @@ gvc_result gvc_exact_decoder_begin(gvc_exact_decoder *decoder, const gvc_shape *
     size_t count = 0;
     for (size_t c = 0; c < shape->chart_count; c++) count += chart_codes(&shape->chart[c]);
     decoder->next = 0;
+    decoder->end = SIZE_MAX;
     if (decoder->code_count == count) return GVC_OK;
     gvc_exact_decoder_free(decoder);
+    decoder->end = SIZE_MAX;
     decoder->codes = gvc_alloc(count, sizeof *decoder->codes);
     decoder->before = gvc_alloc(count, sizeof *decoder->before);
     if (!decoder->codes || !decoder->before) {
@@ -99,11 +101,21 @@ gvc_result gvc_exact_decoder_seek(gvc_exact_decoder *decoder, const gvc_reader *
                                   gvc_error *error) {
     const gvc_fragment_entry *entry = &reader->demux.fragment[fragment];
     size_t place = (size_t)(frame - entry->first_frame);
+    gvc_error defect = decoder->defect;
+    gvc_result result = place < decoder->end ? GVC_OK : defect.code;
+    if (result == GVC_OK) gvc_error_init(&defect);
     if (decoder->next > place + 1) decoder->next = 0;
-    while (decoder->next <= place) {
-        GVC_TRY(decode_next(decoder, reader, entry, shape, error));
+    while (result == GVC_OK && decoder->next <= place) {
+        size_t at = decoder->next;
+        result = decode_next(decoder, reader, entry, shape, &defect);
+        if (result == GVC_OK) continue;
+        decoder->next = 0; /* the codes of the frame before have been given up */
+        if (result != GVC_ERROR_CORRUPT) continue;
+        decoder->end = at;
+        decoder->defect = defect;
     }
-    return GVC_OK;
+    if (result != GVC_OK && error) *error = defect;
+    return result;
 }
 
 const uint16_t *gvc_exact_decoder_chart(const gvc_exact_decoder *decoder, const gvc_shape *shape,

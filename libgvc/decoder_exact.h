@@ -13,13 +13,15 @@ typedef struct gvc_exact_decoder {
                                  chart 3 planes of size * size codes, one chart after the other */
     size_t code_count;        /**< of all charts */
     size_t next;              /**< place in the fragment of the next frame to be decoded */
+    size_t end;               /**< place of the first frame that cannot be decoded */
+    gvc_error defect;         /**< why not */
 } gvc_exact_decoder;
 
 /** Prepares for the frames of another fragment, whose charts are `shape`. */
 gvc_result gvc_exact_decoder_begin(gvc_exact_decoder *decoder, const gvc_shape *shape,
                                    gvc_error *error);
-/** Leaves the codes of `frame`, one of `fragment`, in decoder->codes. After a failure
- * gvc_exact_decoder_begin must be called again. */
+/** Leaves the codes of `frame`, one of `fragment`, in decoder->codes. A frame behind one that is
+ * damaged gets that one's error at once. */
 gvc_result gvc_exact_decoder_seek(gvc_exact_decoder *decoder, const gvc_reader *reader,
                                   size_t fragment, uint64_t frame, const gvc_shape *shape,
                                   gvc_error *error);

@@ -9,12 +9,14 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "chart/sample.h"
+#include "checkpoint.h"
 #include "encode/batch.h"
 #include "encode/cut.h"
 #include "encode/exact.h"
 #include "encode/group.h"
 #include "encode/rate.h"
 #include "encode/tap.h"
+#include "resume.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -44,8 +46,10 @@ typedef struct encoder {
     double *followed; /* point samples of the last frame of the layout; NULL: there is none yet */
     uint32_t size;    /* of all images; 0 until chosen */
     gvc_group group;
-    gvc_writer *writer; /* NULL until the first group is coded */
-    double crf;         /* of the last group: guess for the next */
+    gvc_writer *writer;         /* NULL until the first group is coded */
+    double crf;                 /* of the last group: guess for the next */
+    const gvc_partial *partial; /* what to go on from; NULL: from the beginning */
+    gvc_resume resume;
 } encoder;
 
 static gvc_result check_options(const gvc_encode_options *o, const gvc_source *source,
@@ -139,44 +143,61 @@ static gvc_result miss_error(const encoder *e, const char *what, double rms, gvc
 }
 
 /* Codes the group and measures what comes out. */
-static gvc_result code_group(encoder *e, gvc_error *error) {
+static gvc_result code_images(encoder *e, gvc_finished_group *done, gvc_error *error) {
     gvc_group *group = &e->group;
-    double rms;
     bool held = true, exact_held = true;
     if (group->exact) {
         GVC_TRY(gvc_exact_code(group, &e->options, error));
-        GVC_TRY(gvc_rate_measure_exact(group, e->source, &e->options, &rms, &exact_held, error));
-        if (!exact_held) GVC_TRY(miss_error(e, "frames", rms, error));
-        e->report.worst_rms = fmax(e->report.worst_rms, rms);
+        GVC_TRY(
+            gvc_rate_measure_exact(group, e->source, &e->options, &done->rms, &exact_held, error));
+        if (!exact_held) GVC_TRY(miss_error(e, "frames", done->rms, error));
     }
     if (!group->video) return GVC_OK;
-    GVC_TRY(gvc_rate_code(group, e->source, &e->options, &e->crf, &rms, &held, error));
-    if (isnan(e->options.crf) && !held && exact_held) {
-        GVC_TRY(miss_error(e, group->exact ? "previews" : "frames", rms, error));
-    }
-    double *worst = group->exact ? &e->report.preview_rms : &e->report.worst_rms;
-    *worst = fmax(*worst, rms);
-    e->report.mean_crf += e->crf * (double)group->count;
-    return GVC_OK;
+    double *rms = group->exact ? &done->preview_rms : &done->rms;
+    GVC_TRY(gvc_rate_code(group, e->source, &e->options, &e->crf, rms, &held, error));
+    if (!isnan(e->options.crf) || held || !exact_held) return GVC_OK;
+    return miss_error(e, group->exact ? "previews" : "frames", *rms, error);
 }
 
 /* Codes, measures and writes the group; begins the file with the first one. */
-static gvc_result flush_group(encoder *e, gvc_error *error) {
+static gvc_result code_group(encoder *e, gvc_finished_group *done, gvc_error *error) {
     gvc_group *group = &e->group;
-    if (group->count == 0) return GVC_OK;
-    GVC_TRY(code_group(e, error));
+    GVC_TRY(code_images(e, done, error));
+    GVC_TRY(gvc_resume_check_coded(&e->resume, &group->coded, error));
     if (!e->writer) {
         gvc_config config;
         describe(e, &config);
         GVC_TRY(gvc_writer_create(e->sink, &config, group->coded.config, group->coded.config_size,
                                   &e->writer, error));
     }
-    GVC_TRY(gvc_group_write(group, e->source, e->writer, error));
+    return gvc_group_write(group, e->source, e->writer, error);
+}
+
+/* Takes over a group that an earlier run has finished. */
+static gvc_result take_group(encoder *e, gvc_finished_group *done, gvc_error *error) {
+    gvc_config config;
+    describe(e, &config);
+    GVC_TRY(gvc_resume_take(&e->resume, &e->group, &config, e->sink, &e->writer, done, error));
+    e->crf = done->crf;
+    return GVC_OK;
+}
+
+static gvc_result flush_group(encoder *e, gvc_error *error) {
+    gvc_group *group = &e->group;
+    if (group->count == 0) return GVC_OK;
+    gvc_finished_group done = {.first_frame = group->first_frame, .frame_count = group->count};
+    bool finished = gvc_resume_holds(&e->resume, group->first_frame);
+    GVC_TRY(finished ? take_group(e, &done, error) : code_group(e, &done, error));
+    done.end = gvc_writer_byte_count(e->writer);
+    done.crf = e->crf;
+    GVC_TRY(gvc_resume_note(&e->options, &done, error));
+    e->report.worst_rms = fmax(e->report.worst_rms, done.rms);
+    e->report.preview_rms = fmax(e->report.preview_rms, done.preview_rms);
+    if (group->video) e->report.mean_crf += e->crf * (double)group->count;
     e->report.gop_count++;
     e->report.frame_count += group->count;
-    uint64_t done = group->first_frame + group->count;
     gvc_group_clear(group);
-    return report_progress(e, done, error);
+    return report_progress(e, done.first_frame + done.frame_count, error);
 }
 
 /* ------------------------------------------------------------------------------------ segments */
@@ -250,15 +271,20 @@ static gvc_cutter cutter_of(const encoder *e) {
                         .size = e->size ? e->size : e->options.image_size};
 }
 
-/* Settles the image size with the first frames cut, and with it what depends on it. */
-static gvc_result settle_size(encoder *e, size_t first, size_t end, gvc_error *error) {
-    e->size = e->options.image_size;
-    if (e->size == 0) GVC_TRY(choose_size(e, first, end, error));
+static gvc_result begin_group(encoder *e, gvc_error *error) {
     uint32_t padded = (e->size + BLOCK - 1) / BLOCK * BLOCK;
     gvc_picture_layout layout = {padded, padded};
     GVC_TRY(gvc_group_create(e->options.gop, layout, &e->group, error));
     e->group.video = has_video(&e->options);
     e->group.exact = e->options.lossless;
+    return GVC_OK;
+}
+
+/* Settles the image size with the first frames cut, and with it what depends on it. */
+static gvc_result settle_size(encoder *e, size_t first, size_t end, gvc_error *error) {
+    e->size = e->options.image_size;
+    if (e->size == 0) GVC_TRY(choose_size(e, first, end, error));
+    GVC_TRY(begin_group(e, error));
     return gvc_segment_resize(&e->segment, &e->batch.work[first], e->size, error);
 }
 
@@ -401,7 +427,7 @@ static gvc_result add_images(encoder *e, size_t first, size_t *end, gvc_error *e
     gvc_result result = gvc_parallel_for(e->options.threads, count, chart_one, &context, error);
     while (result == GVC_OK && good < count && !context.unfit[good]) good++;
     if (result == GVC_OK) result = sample_charts(&context, good, error);
-    if (result == GVC_OK) {
+    if (result == GVC_OK && !gvc_resume_holds(&e->resume, group->first_frame)) {
         result = gvc_parallel_for(e->options.threads, good, fit_one, &context, error);
     }
     free_images(&context);
@@ -418,6 +444,46 @@ static gvc_result add_images(encoder *e, size_t first, size_t *end, gvc_error *e
     for (size_t i = first; i < first + good; i++) gvc_frame_free(&e->batch.work[i]);
     *end = first + good;
     return GVC_OK;
+}
+
+/* ---------------------------------------------------------------------------------- checkpoints */
+
+static gvc_checkpoint checkpoint_of(encoder *e, uint64_t *next_frame) {
+    return (gvc_checkpoint){.next_frame = next_frame,
+                            .size = &e->size,
+                            .crf = &e->crf,
+                            .followed = &e->followed,
+                            .report = &e->report,
+                            .segment = &e->segment,
+                            .tracker = e->tracker};
+}
+
+static gvc_result save_checkpoint(encoder *e, uint64_t next_frame, gvc_error *error) {
+    const gvc_checkpoint checkpoint = checkpoint_of(e, &next_frame);
+    return gvc_checkpoint_save(&checkpoint, &e->options, error);
+}
+
+/* Begins behind the last checkpoint of an encode that ended early, if there is one whose groups are
+ * all there. `*first` is the frame to go on with. */
+static gvc_result load_checkpoint(encoder *e, uint64_t *first, gvc_error *error) {
+    const gvc_partial *partial = e->partial;
+    const gvc_checkpoint checkpoint = checkpoint_of(e, first);
+    uint64_t frame;
+    bool loaded;
+    if (!partial || !partial->checkpoint ||
+        !gvc_checkpoint_frame(partial->checkpoint, partial->checkpoint_size, &frame) ||
+        !gvc_resume_can_skip(&e->resume, frame)) {
+        return GVC_OK;
+    }
+    GVC_TRY(gvc_checkpoint_load(&checkpoint, partial->checkpoint, partial->checkpoint_size, &loaded,
+                                error));
+    if (!loaded) return GVC_OK;
+    GVC_TRY(begin_group(e, error));
+    GVC_TRY(gvc_load_frame(e->source, frame - 1, e->options.weld, &e->batch.before, NULL, error));
+    gvc_config config;
+    describe(e, &config);
+    GVC_TRY(gvc_resume_skip(&e->resume, frame, &config, &e->options, e->sink, &e->writer, error));
+    return report_progress(e, frame, error);
 }
 
 /* Cuts as many frames of the batch from `first` on as the segment and the group take, then makes
@@ -450,7 +516,8 @@ static gvc_result encode_run(encoder *e, size_t first, size_t *end, gvc_error *e
         GVC_TRY(flush_group(e, error));
         e->segment.end_frame = e->batch.work[*end].number; /* it starts a segment */
     }
-    return e->group.count == e->options.gop ? flush_group(e, error) : GVC_OK;
+    if (e->group.count == e->options.gop) GVC_TRY(flush_group(e, error));
+    return e->group.count == 0 ? save_checkpoint(e, e->batch.first + *end, error) : GVC_OK;
 }
 
 static gvc_result encode_batch(encoder *e, uint64_t first, size_t count, gvc_error *error) {
@@ -467,23 +534,32 @@ static gvc_result encode_batch(encoder *e, uint64_t first, size_t count, gvc_err
 static gvc_result encode_all(encoder *e, gvc_error *error) {
     uint64_t total = e->source->frame_count;
     GVC_TRY(gvc_scan(e->source, &e->options, e->facts, error));
+    GVC_TRY(gvc_resume_begin(&e->resume, e->partial, e->source, e->facts, &e->options, error));
     GVC_TRY(report_progress(e, 0, error));
-    for (uint64_t first = 0; first < total; first += GVC_BATCH) {
-        uint64_t left = total - first;
-        GVC_TRY(encode_batch(e, first, left < GVC_BATCH ? (size_t)left : GVC_BATCH, error));
+    uint64_t first = 0;
+    GVC_TRY(load_checkpoint(e, &first, error));
+    while (first < total) { /* batches end where they would without a checkpoint */
+        uint64_t end = first - first % GVC_BATCH + GVC_BATCH;
+        if (end > total) end = total;
+        GVC_TRY(encode_batch(e, first, (size_t)(end - first), error));
+        first = end;
     }
     GVC_TRY(flush_group(e, error));
     return gvc_writer_finish(e->writer, error);
 }
 
-gvc_result gvc_encode_tapped(const gvc_source *source, const gvc_sink *sink,
-                             const gvc_encode_options *options, const gvc_image_tap *tap,
-                             gvc_encode_report *report, gvc_error *error) {
+static gvc_result encode(const gvc_source *source, const gvc_sink *sink,
+                         const gvc_encode_options *options, const gvc_image_tap *tap,
+                         const gvc_partial *partial, gvc_encode_report *report, gvc_error *error) {
     GVC_TRY(check_options(options, source, error));
     encoder *e = gvc_alloc(1, sizeof *e);
     if (!e) return gvc_fail_memory(error);
-    *e = (encoder){
-        .source = source, .sink = sink, .tap = tap, .options = *options, .crf = FIRST_CRF};
+    *e = (encoder){.source = source,
+                   .sink = sink,
+                   .tap = tap,
+                   .options = *options,
+                   .crf = FIRST_CRF,
+                   .partial = partial};
     e->facts = gvc_alloc((size_t)source->frame_count, sizeof *e->facts);
     gvc_result result = e->facts ? GVC_OK : gvc_fail_memory(error);
     if (result == GVC_OK) result = gvc_cut_tracker(options, &e->tracker, error);
@@ -495,6 +571,7 @@ gvc_result gvc_encode_tapped(const gvc_source *source, const gvc_sink *sink,
         report->mean_crf /= (double)report->frame_count;
     }
     gvc_writer_destroy(&e->writer);
+    gvc_resume_free(&e->resume);
     gvc_batch_free(&e->batch);
     follow_no_more(e);
     gvc_group_free(&e->group);
@@ -505,8 +582,20 @@ gvc_result gvc_encode_tapped(const gvc_source *source, const gvc_sink *sink,
     return gvc_explain(error, result);
 }
 
+gvc_result gvc_encode_tapped(const gvc_source *source, const gvc_sink *sink,
+                             const gvc_encode_options *options, const gvc_image_tap *tap,
+                             gvc_encode_report *report, gvc_error *error) {
+    return encode(source, sink, options, tap, NULL, report, error);
+}
+
 gvc_result gvc_encode(const gvc_source *source, const gvc_sink *sink,
                       const gvc_encode_options *options, gvc_encode_report *report,
                       gvc_error *error) {
-    return gvc_encode_tapped(source, sink, options, NULL, report, error);
+    return encode(source, sink, options, NULL, NULL, report, error);
+}
+
+gvc_result gvc_encode_resume(const gvc_source *source, const gvc_sink *sink,
+                             const gvc_encode_options *options, const gvc_partial *partial,
+                             gvc_encode_report *report, gvc_error *error) {
+    return encode(source, sink, options, NULL, partial, report, error);
 }

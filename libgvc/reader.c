@@ -120,6 +120,29 @@ static uint64_t track_bytes(const gvc_demux *demux, gvc_track_kind kind) {
     return sum;
 }
 
+/* Frames of a fragment that the file's end cuts through which are not whole. */
+static uint64_t cut_frames(const gvc_reader *reader) {
+    const gvc_demux *demux = &reader->demux;
+    uint64_t cut = 0;
+    for (size_t i = demux->fragment_count; i-- > 0;) {
+        const gvc_fragment_entry *entry = &demux->fragment[i];
+        if (entry->size <= reader->io.size - entry->offset) break;
+        for (uint32_t f = 0; f < entry->frame_count; f++) {
+            bool whole = true;
+            for (unsigned kind = 0; kind < GVC_TRACK_KINDS; kind++) {
+                if (!demux->has_track[kind]) continue;
+                size_t index =
+                    gvc_demux_sample_of(demux, entry, (gvc_track_kind)kind, entry->first_frame + f);
+                const gvc_sample_entry *sample = &demux->sample[kind][index];
+                whole = whole && sample->offset <= reader->io.size &&
+                        sample->size <= reader->io.size - sample->offset;
+            }
+            cut += !whole;
+        }
+    }
+    return cut;
+}
+
 void gvc_reader_info(const gvc_reader *reader, gvc_info *info) {
     const gvc_config *config = &reader->demux.config;
     *info = (gvc_info){
@@ -140,9 +163,23 @@ void gvc_reader_info(const gvc_reader *reader, gvc_info *info) {
         .geometry_bytes = track_bytes(&reader->demux, GVC_TRACK_GEOMETRY),
         .shape_bytes = track_bytes(&reader->demux, GVC_TRACK_SHAPE),
         .exact_bytes = track_bytes(&reader->demux, GVC_TRACK_EXACT),
+        .has_digest = reader->demux.digest_offset > 0,
     };
+    memcpy(info->digest, reader->demux.digest, sizeof info->digest);
+    info->frame_count -= cut_frames(reader);
+    for (size_t i = 0; i < reader->demux.gap_count; i++) {
+        info->lost_count += reader->demux.gap[i].frame_count;
+    }
     snprintf(info->unit, sizeof info->unit, "%s", config->unit);
     snprintf(info->encoder, sizeof info->encoder, "%s", config->encoder);
+}
+
+static bool in_gap(const gvc_demux *demux, uint64_t frame) {
+    for (size_t i = 0; i < demux->gap_count; i++) {
+        const gvc_gap *gap = &demux->gap[i];
+        if (frame >= gap->first_frame && frame - gap->first_frame < gap->frame_count) return true;
+    }
+    return false;
 }
 
 gvc_result gvc_reader_find(const gvc_reader *reader, uint64_t frame, size_t *fragment,
@@ -160,7 +197,10 @@ gvc_result gvc_reader_find(const gvc_reader *reader, uint64_t frame, size_t *fra
     gvc_result result = GVC_OK;
     if (low == 0 ||
         frame - demux->fragment[low - 1].first_frame >= demux->fragment[low - 1].frame_count) {
-        if (low < demux->fragment_count) {
+        if (in_gap(demux, frame)) {
+            result =
+                gvc_fail(error, GVC_ERROR_LOST, "the frame was lost before the file was repaired");
+        } else if (low < demux->fragment_count) {
             result = gvc_fail(error, GVC_ERROR_CORRUPT, "the frame lies in a damaged part");
         } else if (frame < demux->config.declared_frames) {
             result = gvc_fail(error, GVC_ERROR_TRUNCATED, "the frame is missing at the file's end");

@@ -60,7 +60,8 @@ void cli_json_string(FILE *file, const char *text) {
 }
 
 uint64_t cli_frame_count(const gvc_info *info) {
-    return info->declared_count > info->frame_count ? info->declared_count : info->frame_count;
+    uint64_t known = info->frame_count + info->lost_count;
+    return info->declared_count > known ? info->declared_count : known;
 }
 
 /* ------------------------------------------------------------------------------------- numbers */

@@ -13,6 +13,7 @@ int cmd_encode(int argc, char **argv);
 int cmd_decode(int argc, char **argv);
 int cmd_info(int argc, char **argv);
 int cmd_verify(int argc, char **argv);
+int cmd_repair(int argc, char **argv);
 int cmd_extract_exr(int argc, char **argv);
 int cmd_compare(int argc, char **argv);
 int cmd_synth(int argc, char **argv);
@@ -41,7 +42,8 @@ char *cli_frame_path(const char *pattern, uint64_t frame, bool only);
 int cli_check_frames(const char *command, const char *pattern, uint64_t first, uint64_t last,
                      bool (*wanted)(void *user, uint64_t frame), void *user, bool force);
 
-/** Frames a file should have: those it declares, or those it holds if that is more. */
+/** Frames a file should have: those it declares, or those it holds and says are lost if that is
+ * more. */
 uint64_t cli_frame_count(const gvc_info *info);
 
 /** Whole-string numbers, independent of the locale; false if malformed or out of range. */

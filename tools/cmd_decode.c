@@ -116,7 +116,7 @@ static gvc_result write_frame(const decode_arguments *a, uint64_t frame, const g
 
 static int decode_frames(const decode_arguments *a, gvc_decoder *decoder) {
     cli_progress progress;
-    uint64_t lost = 0;
+    uint64_t lost = 0, lost_before = 0;
     int status = EXIT_DONE;
     cli_progress_begin(&progress, "decoding", a->quiet);
     for (uint64_t frame = a->first; frame <= a->last; frame++) {
@@ -127,7 +127,9 @@ static int decode_frames(const decode_arguments *a, gvc_decoder *decoder) {
         bool decoded = result == GVC_OK;
         if (decoded) result = write_frame(a, frame, mesh, &error);
         gvc_mesh_destroy(&mesh);
-        if (result != GVC_OK) {
+        if (result == GVC_ERROR_LOST && a->first < a->last) {
+            lost_before++;
+        } else if (result != GVC_OK) {
             status = cli_fail("decode", a->input, &error);
             lost++;
             if (!a->keep_going || decoded) break;
@@ -146,6 +148,10 @@ static int decode_frames(const decode_arguments *a, gvc_decoder *decoder) {
         cli_progress_show(&progress, frame - a->first + 1, a->last - a->first + 1);
     }
     cli_progress_end(&progress);
+    if (lost_before > 0) {
+        fprintf(stderr, "gvc decode: %llu of %llu frames were lost before the file was repaired\n",
+                (unsigned long long)lost_before, (unsigned long long)(a->last - a->first + 1));
+    }
     if (lost > 0 && a->keep_going) {
         fprintf(stderr, "gvc decode: %llu of %llu frames lost\n", (unsigned long long)lost,
                 (unsigned long long)(a->last - a->first + 1));

@@ -4,6 +4,7 @@
 #include "cli.h"
 #include "frames.h"
 #include "from_exr.h"
+#include "partial.h"
 
 #include <getopt.h>
 #include <math.h>
@@ -18,7 +19,11 @@ static const char usage[] =
     "frame on standard input. Each must be one closed, oriented, manifold surface.\n"
     "\n"
     "  -o, --output FILE     where to write; - is standard output\n"
-    "  -f, --force           replace FILE if it exists\n"
+    "  -f, --force           replace FILE if it exists, and drop what a run that did not end has "
+    "left\n"
+    "      --resume          go on where a run that did not end has left off, with the same frames "
+    "and\n"
+    "                        options: the file will be the same as if nothing had happened\n"
     "  -e, --max-rms BOUND   RMS distance to hold in every group of frames: a share of the\n"
     "                        bounding box's diagonal (0.05%), or a length in the unit of the "
     "meshes\n"
@@ -43,6 +48,10 @@ static const char usage[] =
     "  -j, --jobs N          threads (default: one per processor); never changes the output\n"
     "  -q, --quiet           no progress, no summary\n"
     "\n"
+    "FILE is written as FILE.part, which 'gvc decode --keep-going' can read at any time, and gets "
+    "its\n"
+    "name at the end.\n"
+    "\n"
     "The method itself, for experiments (docs/ablation.md); numbers are the defaults:\n"
     "\n"
     "      --persistence 0.2 least persistence of an extremum to cut to, as a share of the range\n"
@@ -64,6 +73,7 @@ enum {
     OPT_UNIT,
     OPT_NO_WELD,
     OPT_ANY_ORDER,
+    OPT_RESUME,
     OPT_PERSISTENCE,
     OPT_CURVATURE,
     OPT_PRIOR,
@@ -76,7 +86,8 @@ enum {
 typedef struct encode_arguments {
     gvc_encode_options options;
     const char *output;
-    bool force, quiet, any_order, from_exr;
+    bool force, quiet, any_order, from_exr, resume;
+    partial_file partial;
     cli_progress progress;
     bool scanning;
 } encode_arguments;
@@ -183,6 +194,9 @@ static int set_option(encode_arguments *a, int option, const char *value) {
     case OPT_NO_WELD:
         o->weld = false;
         return EXIT_DONE;
+    case OPT_RESUME:
+        a->resume = true;
+        return EXIT_DONE;
     case OPT_ANY_ORDER:
         a->any_order = true;
         return EXIT_DONE;
@@ -227,6 +241,7 @@ static int parse(encode_arguments *a, int argc, char **argv) {
         {"from-exr", no_argument, NULL, OPT_FROM_EXR},
         {"no-weld", no_argument, NULL, OPT_NO_WELD},
         {"any-order", no_argument, NULL, OPT_ANY_ORDER},
+        {"resume", no_argument, NULL, OPT_RESUME},
         {"persistence", required_argument, NULL, OPT_PERSISTENCE},
         {"prior", required_argument, NULL, OPT_PRIOR},
         {"curvature", required_argument, NULL, OPT_CURVATURE},
@@ -284,33 +299,81 @@ static void summarise(const encode_arguments *a, const gvc_encode_report *report
     fprintf(stderr, "%.1f s\n", seconds);
 }
 
+static gvc_result on_journal(void *user, const char *line, gvc_error *error) {
+    encode_arguments *a = user;
+    return partial_note(&a->partial, line, error);
+}
+
+static gvc_result on_checkpoint(void *user, const void *data, size_t size, gvc_error *error) {
+    encode_arguments *a = user;
+    return partial_checkpoint(&a->partial, data, size, error);
+}
+
+/* To standard output or a device, which cannot be looked at again, and from geometry images, which
+ * takes no time: nothing is kept of a run that fails. */
+static gvc_result encode_whole(encode_arguments *a, frame_list *list, gvc_encode_report *report,
+                               gvc_error *error) {
+    gvc_output output;
+    gvc_sink sink = {.user = &output, .write = gvc_output_write};
+    gvc_result result = gvc_output_begin(a->output, a->force, &output, error);
+    if (result != GVC_OK) return result;
+    if (a->from_exr) {
+        result = encode_from_exr(list, &sink, &a->options, report, error);
+    } else {
+        gvc_source source = frame_list_source(list);
+        result = gvc_encode(&source, &sink, &a->options, report, error);
+    }
+    if (result == GVC_OK) return gvc_output_end(&output, error);
+    gvc_output_discard(&output);
+    return result;
+}
+
+/* To a file of whose finished groups nothing is lost when this ends early. */
+static gvc_result encode_file(encode_arguments *a, const gvc_source *source,
+                              gvc_encode_report *report, gvc_error *error) {
+    partial_file *p = &a->partial;
+    gvc_sink sink = {.user = &p->output, .write = gvc_output_write};
+    gvc_result result = partial_begin(a->output, a->force, a->resume, p, error);
+    if (result != GVC_OK) {
+        if (result == GVC_ERROR_IO && !a->resume && strstr(error->message, "left by a run")) {
+            cli_warn("encode", "%s", "--resume goes on with it, -f begins anew");
+        }
+        return result;
+    }
+    a->options.journal = on_journal;
+    a->options.checkpoint = on_checkpoint;
+    gvc_partial before = {.file = p->reader,
+                          .journal = p->journal_text,
+                          .checkpoint = p->state.size > 0 ? p->state.data : NULL,
+                          .checkpoint_size = p->state.size};
+    result =
+        gvc_encode_resume(source, &sink, &a->options, p->reader ? &before : NULL, report, error);
+    if (result == GVC_OK) return partial_end(p, error);
+    bool worth_keeping =
+        result == GVC_ERROR_IO || result == GVC_ERROR_CANCELLED || result == GVC_ERROR_MEMORY;
+    if (partial_leave(p, worth_keeping)) {
+        fprintf(stderr, "gvc encode: what is finished is kept as %s.part; --resume goes on\n",
+                a->output);
+    }
+    return result;
+}
+
 static int encode(encode_arguments *a, frame_list *list) {
     gvc_error error;
-    gvc_output output;
     gvc_encode_report report;
     double started = cli_now();
     gvc_error_init(&error);
     if (!a->force && cli_in_the_way("encode", a->output)) return EXIT_DATA;
-    if (gvc_output_begin(a->output, a->force, &output, &error) != GVC_OK) {
-        return cli_fail("encode", a->output, &error);
-    }
+    bool stream = gvc_output_is_stream(a->output);
+    if (stream && a->resume) return cli_usage("encode", "only a file can be resumed");
+    if (a->from_exr && a->resume) return cli_usage("encode", "--from-exr needs no --resume");
     gvc_source source = frame_list_source(list);
-    gvc_sink sink = {.user = &output, .write = gvc_output_write};
-    gvc_result result;
     a->scanning = true;
     cli_progress_begin(&a->progress, "reading", a->quiet);
-    if (a->from_exr) {
-        result = encode_from_exr(list, &sink, &a->options, &report, &error);
-    } else {
-        result = gvc_encode(&source, &sink, &a->options, &report, &error);
-    }
+    bool whole = stream || a->from_exr;
+    gvc_result result =
+        whole ? encode_whole(a, list, &report, &error) : encode_file(a, &source, &report, &error);
     cli_progress_end(&a->progress);
-    if (result == GVC_OK) {
-        gvc_output_sync(&output);
-        result = gvc_output_end(&output, &error);
-    } else {
-        gvc_output_discard(&output);
-    }
     if (result != GVC_OK) return cli_fail("encode", a->output, &error);
     if (a->from_exr) {
         summarise_images(a, &report, cli_now() - started);

@@ -48,8 +48,8 @@ static int parse(info_arguments *a, int argc, char **argv) {
     return EXIT_DONE;
 }
 
-static void print_digest(const uint8_t digest[8]) {
-    for (int i = 0; i < 8; i++) printf("%02x", digest[i]);
+static void print_digest(const uint8_t *digest, size_t size) {
+    for (size_t i = 0; i < size; i++) printf("%02x", digest[i]);
 }
 
 static bool has_video(const gvc_info *info) { return !info->lossless || info->preview; }
@@ -71,8 +71,12 @@ static void print_text(const info_arguments *a, const gvc_info *info) {
            info->format_version_minor, info->encoder);
     printf("frames       %" PRIu64 " at %.6g a second, %.3f s\n", info->frame_count, rate,
            (double)info->frame_count / rate);
-    if (info->declared_count > info->frame_count) {
-        printf("missing      %" PRIu64 " frames\n", info->declared_count - info->frame_count);
+    uint64_t missing = cli_frame_count(info) - info->frame_count - info->lost_count;
+    if (missing > 0) {
+        printf("missing      %" PRIu64 " frames\n", missing);
+    }
+    if (info->lost_count > 0) {
+        printf("lost         %" PRIu64 " frames, before the file was repaired\n", info->lost_count);
     }
     if (info->damage_count > 0) printf("damage       %" PRIu64 " places\n", info->damage_count);
     printf("bytes        %" PRIu64, info->byte_count);
@@ -90,6 +94,11 @@ static void print_text(const info_arguments *a, const gvc_info *info) {
     print_track("shape", info->shape_bytes, info);
     printf("groups       %" PRIu64 "\n", info->gop_count);
     printf("unit         %s\n", info->unit[0] ? info->unit : "not stated");
+    if (info->has_digest) {
+        printf("SHA-256      ");
+        print_digest(info->digest, sizeof info->digest);
+        printf("\n");
+    }
 }
 
 static void print_json(const info_arguments *a, const gvc_info *info) {
@@ -109,6 +118,12 @@ static void print_json(const info_arguments *a, const gvc_info *info) {
            profile(info), info->geometry_bytes, info->exact_bytes, info->shape_bytes,
            info->gop_count, info->damage_count);
     cli_json_string(stdout, info->unit);
+    printf(",\n  \"lost_frames\": %" PRIu64, info->lost_count);
+    if (info->has_digest) {
+        printf(",\n  \"sha256\": \"");
+        print_digest(info->digest, sizeof info->digest);
+        printf("\"");
+    }
 }
 
 static void print_frame(const info_arguments *a, uint64_t frame, const gvc_frame_info *f,
@@ -120,7 +135,7 @@ static void print_frame(const info_arguments *a, uint64_t frame, const gvc_frame
                "\"digest\": \"",
                first ? "" : ",", frame, f->byte_count, f->keyframe ? "true" : "false", f->segment,
                f->chart_count, f->genus, f->extremum_count, f->node_count, f->edge_count);
-        print_digest(f->digest);
+        print_digest(f->digest, sizeof f->digest);
         printf("\", \"source\": ");
         cli_json_string(stdout, f->source);
         printf("}");
@@ -130,7 +145,7 @@ static void print_frame(const info_arguments *a, uint64_t frame, const gvc_frame
            ", genus %u, %u extrema, %u nodes, %u edges, digest ",
            frame, f->byte_count, f->keyframe ? "key" : "   ", f->segment, f->genus,
            f->extremum_count, f->node_count, f->edge_count);
-    print_digest(f->digest);
+    print_digest(f->digest, sizeof f->digest);
     if (f->source[0]) printf(", from %s", f->source);
     printf("\n");
 }
@@ -148,6 +163,7 @@ static int print_frames(const info_arguments *a, const gvc_reader *reader, const
             first = false;
             continue;
         }
+        if (error.code == GVC_ERROR_LOST) continue;
         status = cli_fail("info", a->input, &error);
         if (!a->keep_going || error.code == GVC_ERROR_TRUNCATED) break;
     }

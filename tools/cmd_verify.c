@@ -7,15 +7,18 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const char usage[] =
     "usage: gvc verify capture.gvc\n"
     "       gvc verify capture.gvc --against FRAMES...\n"
     "\n"
-    "Decodes every frame, compares its digest, and checks that each surface is closed, manifold, "
-    "oriented and of the\n"
-    "genus declared; with --against also measures the distance to the capture. Names every frame "
-    "that is not good.\n"
+    "Checks every byte and the digest of the file, decodes every frame, compares its digest, and\n"
+    "checks that each surface is closed, manifold, oriented and of the genus declared; with "
+    "--against\n"
+    "also measures the distance to the capture. Names what is damaged (fragment, track, frame, "
+    "byte)\n"
+    "and every frame that is not good. Fragments are numbered from 1, frames from 0.\n"
     "\n"
     "      --against         the arguments after the file are the frames it was made from\n"
     "      --any-order       take frames as given: no check of numbers\n"
@@ -30,7 +33,7 @@ typedef struct verify_arguments {
 
 /* Errors so far, as fractions of each frame's diagonal. */
 typedef struct verify_totals {
-    uint64_t good, bad;
+    uint64_t good, bad, lost_before, defects;
     double mean_sum, square_sum, hausdorff;
 } verify_totals;
 
@@ -107,9 +110,36 @@ static gvc_result check_distance(const gvc_source *source, uint64_t frame, const
     return result;
 }
 
+/* Frames that follow each other and are bad for the same reason. */
+typedef struct bad_run {
+    uint64_t first, count;
+    gvc_error error;
+} bad_run;
+
+static void end_run(const verify_arguments *a, bad_run *run) {
+    if (run->count > 1) {
+        fprintf(stderr, "gvc verify: %s: frames %" PRIu64 "-%" PRIu64 ": %s\n", a->input,
+                run->first, run->first + run->count - 1, run->error.message);
+    } else if (run->count == 1) {
+        (void)cli_fail("verify", a->input, &run->error);
+    }
+    run->count = 0;
+}
+
+static void add_bad(const verify_arguments *a, bad_run *run, uint64_t frame,
+                    const gvc_error *error) {
+    bool same = run->count > 0 && strcmp(run->error.message, error->message) == 0;
+    if (!same) {
+        end_run(a, run);
+        *run = (bad_run){.first = frame, .error = *error};
+    }
+    run->count++;
+}
+
 static void verify_frames(const verify_arguments *a, const gvc_reader *reader, gvc_decoder *decoder,
                           uint64_t count, const gvc_source *source, verify_totals *totals) {
     cli_progress progress;
+    bad_run run = {0};
     cli_progress_begin(&progress, "verifying", a->quiet);
     for (uint64_t frame = 0; frame < count && !cli_interrupted(); frame++) {
         gvc_mesh *mesh = NULL;
@@ -122,24 +152,62 @@ static void verify_frames(const verify_arguments *a, const gvc_reader *reader, g
         gvc_mesh_destroy(&mesh);
         if (result == GVC_OK) {
             totals->good++;
+        } else if (result == GVC_ERROR_LOST) {
+            totals->lost_before++;
         } else {
             totals->bad++;
-            (void)cli_fail("verify", a->input, &error);
-            if (error.code ==
-                GVC_ERROR_TRUNCATED) { /* the file ends before it: so do all that follow */
-                totals->bad += count - frame - 1;
-                break;
-            }
+            add_bad(a, &run, frame, &error);
         }
         cli_progress_show(&progress, frame + 1, count);
     }
+    end_run(a, &run);
     cli_progress_end(&progress);
+}
+
+/* ---------------------------------------------------------------------------------------- damage
+ */
+
+typedef struct damage_list {
+    const verify_arguments *arguments;
+    uint64_t count;
+} damage_list;
+
+static void print_range(const char *what, uint64_t first, uint64_t last) {
+    fprintf(stderr, "%s%s %" PRIu64, what, last > first ? "s" : "", first);
+    if (last > first) fprintf(stderr, "-%" PRIu64, last);
+}
+
+static bool print_defect(void *user, const gvc_defect *defect) {
+    static const char *const part[] = {
+        "head", "structure", "geometry track", "shape track", "exact track", "index", "file"};
+    damage_list *list = user;
+    list->count++;
+    fprintf(stderr, "gvc verify: %s: ", list->arguments->input);
+    if (defect->first_fragment) {
+        print_range("fragment", defect->first_fragment, defect->last_fragment);
+        fprintf(stderr, defect->last_fragment ? ", " : " and what follows, ");
+    }
+    fprintf(stderr, "%s, ", part[defect->part]);
+    if (defect->frame_count > 0) {
+        print_range("frame", defect->first_frame, defect->first_frame + defect->frame_count - 1);
+        fprintf(stderr, ", ");
+    }
+    fprintf(stderr, "byte %" PRIu64, defect->offset);
+    if (defect->size > 1) fprintf(stderr, "-%" PRIu64, defect->offset + defect->size - 1);
+    fprintf(stderr, ": %s\n", defect->error.message);
+    return !cli_interrupted();
 }
 
 static void print_totals(const verify_arguments *a, const char *what, const verify_totals *totals,
                          uint64_t count) {
-    if (a->quiet && totals->good == count) return;
+    if (a->quiet && totals->good == count && totals->defects == 0) return;
     printf("%s: %" PRIu64 " of %" PRIu64 " %s good", a->input, totals->good, count, what);
+    if (totals->lost_before > 0) {
+        printf(", %" PRIu64 " lost before it was repaired", totals->lost_before);
+    }
+    if (totals->defects > 0) {
+        printf(", %" PRIu64 " damaged place%s", totals->defects, totals->defects > 1 ? "s" : "");
+    }
     if (a->against && totals->good > 0) {
         double n = (double)totals->good;
         printf("; distance to the capture, %% of the diagonal: mean %.4f, RMS %.4f, Hausdorff %.3f",
@@ -149,7 +217,7 @@ static void print_totals(const verify_arguments *a, const char *what, const veri
     printf("\n");
 }
 
-static int verify(const verify_arguments *a, const gvc_reader *reader, const char *what,
+static int verify(const verify_arguments *a, const gvc_reader *reader, bool preview,
                   const gvc_source *source) {
     gvc_info info;
     gvc_error error;
@@ -164,31 +232,17 @@ static int verify(const verify_arguments *a, const gvc_reader *reader, const cha
                 a->input, count, source->frame_count);
         return EXIT_DATA;
     }
-    if (gvc_decoder_create(reader, &decoder, &error) != GVC_OK) {
+    damage_list damage = {.arguments = a};
+    if ((!preview && gvc_reader_check(reader, print_defect, &damage, &error) != GVC_OK) ||
+        gvc_decoder_create(reader, &decoder, &error) != GVC_OK) {
         return cli_fail("verify", a->input, &error);
     }
+    totals.defects = damage.count;
     verify_frames(a, reader, decoder, count, source, &totals);
     gvc_decoder_destroy(&decoder);
-    print_totals(a, what, &totals, count);
-    return totals.good == count && info.damage_count == 0 ? EXIT_DONE : EXIT_DATA;
-}
-
-/* A damaged file is opened once more to name every frame it cost. */
-static gvc_result open_file(const verify_arguments *a, bool preview, gvc_reader **reader,
-                            bool *damaged) {
-    gvc_read_options options;
-    gvc_error error;
-    gvc_error_init(&error);
-    gvc_read_options_init(&options);
-    options.preview = preview;
-    *damaged = false;
-    gvc_result result = gvc_reader_open_file(a->input, &options, reader, &error);
-    if (result == GVC_OK) return GVC_OK;
-    (void)cli_fail("verify", a->input, &error);
-    if (result != GVC_ERROR_CORRUPT && result != GVC_ERROR_TRUNCATED) return result;
-    *damaged = true;
-    options.keep_going = true;
-    return gvc_reader_open_file(a->input, &options, reader, &error);
+    print_totals(a, preview ? "previews" : "frames", &totals, count);
+    bool whole = totals.good + totals.lost_before == count && totals.defects == 0;
+    return whole ? EXIT_DONE : EXIT_DATA;
 }
 
 /* Frames as they are decoded by default and, of a lossless file with previews, these. */
@@ -197,12 +251,18 @@ static int verify_file(const verify_arguments *a, const gvc_source *source) {
     bool more = true;
     for (bool preview = false; more; preview = true) {
         gvc_reader *reader = NULL;
-        gvc_info info = {0};
-        bool damaged;
-        if (open_file(a, preview, &reader, &damaged) != GVC_OK) return EXIT_DATA;
+        gvc_info info;
+        gvc_error error;
+        gvc_read_options options;
+        gvc_error_init(&error);
+        gvc_read_options_init(&options);
+        options.keep_going = true;
+        options.preview = preview;
+        if (gvc_reader_open_file(a->input, &options, &reader, &error) != GVC_OK) {
+            return cli_fail("verify", a->input, &error);
+        }
         gvc_reader_info(reader, &info);
-        int one = verify(a, reader, preview ? "previews" : "frames", source);
-        if (one != EXIT_DONE || damaged) status = EXIT_DATA;
+        if (verify(a, reader, preview, source) != EXIT_DONE) status = EXIT_DATA;
         more = !preview && info.preview;
         gvc_reader_close(&reader);
     }

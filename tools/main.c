@@ -13,6 +13,7 @@ static const struct {
     {"decode", cmd_decode, "get closed meshes back, all frames or some"},
     {"info", cmd_info, "tell what is in a .gvc file"},
     {"verify", cmd_verify, "prove a .gvc file good, or measure it against its capture"},
+    {"repair", cmd_repair, "save what is undamaged in a damaged or cut-off file"},
     {"extract-exr", cmd_extract_exr,
      "get geometry images as OpenEXR files, which encode takes back"},
     {"compare", cmd_compare, "sizes and errors beside zipped OFF and Draco"},

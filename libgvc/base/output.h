@@ -5,6 +5,8 @@
 
 #include "base/result.h"
 
+#include <stdint.h>
+
 /** A file being written through a buffer, under a temporary name beside its own ("<path>.tmp-..."),
  *  which it gets at the end. A device or pipe is written to directly. After a failed write the rest
  *  is ignored. */
@@ -13,11 +15,17 @@ typedef struct gvc_output {
     char *temporary;  /**< NULL when writing to the target itself (standard output, a device) */
     int descriptor;   /**< -1 if not open */
     int failure;      /**< errno of the first failed write, or 0 */
+    uint64_t written; /**< bytes that have gone to the file */
+    uint64_t there; /**< bytes of an earlier run in the file, which are compared instead of written
+                         as long as they are the same */
     bool overwrite;
     bool standard; /**< the descriptor is that of standard output, which stays open */
     size_t used;
     char *buffer;
 } gvc_output;
+
+/** Whether this is "-", a device or a pipe. */
+bool gvc_output_is_stream(const char *path);
 
 /** Whether something has this name that writing there would replace; not so for "-", a device or a
  *  pipe. */
@@ -26,6 +34,23 @@ bool gvc_output_in_the_way(const char *path);
 /** "-" is standard output. GVC_ERROR_IO if `path` exists as a file and not `overwrite`, or cannot
  * be written. On success, gvc_output_end or gvc_output_discard must follow. */
 gvc_result gvc_output_begin(const char *path, bool overwrite, gvc_output *output, gvc_error *error);
+
+/** What to do with a file that an earlier run has left under the temporary name. */
+typedef enum gvc_leftover {
+    GVC_LEFTOVER_REFUSE, /**< GVC_ERROR_IO */
+    GVC_LEFTOVER_DROP,
+    GVC_LEFTOVER_KEEP /**< what is written is compared with it, and from the first difference on
+                           replaces it */
+} gvc_leftover;
+
+/** Begins a file whose temporary name is `path` and `suffix`, so that it can be found again if this
+ * run does not come to its end, and locks it against other runs (GVC_ERROR_IO if one is writing
+ * it). `path` must not be "-" or a device. Otherwise like gvc_output_begin. */
+gvc_result gvc_output_begin_known(const char *path, const char *suffix, bool overwrite,
+                                  gvc_leftover leftover, gvc_output *output, gvc_error *error);
+
+/** Closes it and leaves it under its temporary name. */
+void gvc_output_leave(gvc_output *output);
 
 /** At least `size` (at most 4096) bytes to fill; tell how many were with gvc_output_advance. A
  *  failure to write is told by gvc_output_end. */

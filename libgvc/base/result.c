@@ -33,6 +33,8 @@ const char *gvc_result_string(gvc_result result) {
         return "unsupported";
     case GVC_ERROR_LIMIT:
         return "limit exceeded";
+    case GVC_ERROR_LOST:
+        return "lost before";
     case GVC_ERROR_MESH:
         return "unsuitable mesh";
     case GVC_ERROR_QUALITY:

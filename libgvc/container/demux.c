@@ -7,6 +7,7 @@
 #include "container/parser.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* Checksumming candidates while scanning may cost this many times the file. */
 #define SCAN_BUDGET_FILES 4u
@@ -15,6 +16,8 @@ void gvc_demux_free(gvc_demux *demux) {
     for (unsigned kind = 0; kind < GVC_TRACK_KINDS; kind++) free(demux->sample[kind]);
     free(demux->fragment);
     free(demux->damage);
+    free(demux->gap);
+    free(demux->head);
     free(demux->avc_config);
     *demux = (gvc_demux){0};
 }
@@ -85,14 +88,20 @@ static gvc_result parse_unit(gvc_parser *parser, uint64_t *end, gvc_error *error
     case GVC_BOX_MFRA:
         GVC_TRY(gvc_parse_index(parser, &box, error));
         break;
+    case GVC_BOX_GGAP:
+        GVC_TRY(gvc_parse_gap(parser, &box, error));
+        break;
     case GVC_BOX_MDAT:
         return gvc_box_fail(&box, error, GVC_ERROR_CORRUPT, "data that no moof describes");
     case GVC_BOX_FTYP:
     case GVC_BOX_MOOV:
         return gvc_box_fail(&box, error, GVC_ERROR_CORRUPT, "a second box of this kind");
-    default:
-        break; /* what is not known is not needed */
+    default: /* what is not known is not needed */
+        if (!parser->unknown) parser->unknown = box.offset;
+        *end = box_end;
+        return GVC_OK;
     }
+    parser->unknown = 0;
     *end = box_end;
     return GVC_OK;
 }
@@ -101,6 +110,54 @@ static gvc_result parse_unit(gvc_parser *parser, uint64_t *end, gvc_error *error
 static bool is_damage(gvc_result result) {
     return result == GVC_ERROR_CORRUPT || result == GVC_ERROR_TRUNCATED ||
            result == GVC_ERROR_UNSUPPORTED;
+}
+
+static gvc_result read_head_copy(void *user, uint64_t offset, void *data, size_t size,
+                                 gvc_error *error) {
+    const gvc_demux *demux = user;
+    (void)error;
+    memcpy(data, demux->head + offset, size);
+    return GVC_OK;
+}
+
+/** The head from its place or, with keep_going, from its copy in the index. */
+static gvc_result parse_some_head(gvc_parser *parser, uint64_t *end, gvc_error *error) {
+    gvc_error defect;
+    gvc_error_init(&defect);
+    gvc_demux *demux = parser->demux;
+    gvc_result result = parse_head(parser, end, &defect);
+    if (result != GVC_OK && is_damage(result) && parser->options->keep_going &&
+        gvc_restore_head(parser, NULL) == GVC_OK) {
+        const gvc_io *file = parser->io, copy = {demux, demux->head_size, read_head_copy};
+        parser->io = &copy;
+        *end = 0;
+        gvc_result restored = parse_head(parser, end, NULL);
+        parser->io = file;
+        if (restored == GVC_OK && *end == demux->head_size) {
+            result = gvc_parser_damage(parser, 0, *end, &defect, &defect);
+        }
+    }
+    if (result != GVC_OK && error) *error = defect;
+    demux->head_size = *end;
+    for (unsigned kind = 0; kind < GVC_TRACK_KINDS; kind++) {
+        demux->track_id[kind] = parser->track[kind].track_id;
+        demux->shown_later[kind] = parser->track[kind].shown_later;
+    }
+    return result;
+}
+
+/** Lists a defect at `offset` and finds where to go on. If bytes were lost from the fragment
+ * before, the next one begins where its data should be. */
+static gvc_result pass_over(gvc_parser *parser, uint64_t offset, const gvc_error *defect,
+                            uint64_t *next, gvc_error *error) {
+    uint64_t from = parser->data_begin ? parser->data_begin : offset;
+    GVC_TRY(gvc_scan_for_box(parser, from, next, error));
+    uint64_t begin = parser->unknown ? parser->unknown : offset; /* a moof with another type? */
+    parser->unknown = 0;
+    parser->data_begin = 0;
+    if (*next == offset) GVC_TRY(gvc_scan_for_box(parser, offset + 1, next, error));
+    if (*next < begin) return gvc_parser_damage(parser, *next, 0, defect, error);
+    return gvc_parser_damage(parser, begin, *next - begin, defect, error);
 }
 
 static gvc_result parse_body(gvc_parser *parser, uint64_t offset, gvc_error *error) {
@@ -114,8 +171,7 @@ static gvc_result parse_body(gvc_parser *parser, uint64_t offset, gvc_error *err
                 if (error) *error = defect;
                 return result;
             }
-            GVC_TRY(gvc_scan_for_moof(parser, offset + 1, &next, error));
-            GVC_TRY(gvc_parser_damage(parser, offset, next - offset, &defect, error));
+            GVC_TRY(pass_over(parser, offset, &defect, &next, error));
         }
         offset = next;
     }
@@ -145,9 +201,12 @@ static gvc_result check_end(gvc_parser *parser, gvc_error *error) {
     bool listed = false; /* a stretch that reaches the end tells already */
     if (demux->damage_count) {
         const gvc_damage *last = &demux->damage[demux->damage_count - 1];
-        listed = last->offset + last->size == size;
+        listed = last->offset + last->size == demux->index_offset;
     }
-    if (result != GVC_OK && !listed) GVC_TRY(gvc_parser_damage(parser, size, 0, &defect, error));
+    if (result != GVC_OK && !listed) {
+        uint64_t begin = parser->unknown ? parser->unknown : size; /* an index of another type? */
+        GVC_TRY(gvc_parser_damage(parser, begin, size - begin, &defect, error));
+    }
     demux->complete = parser->closed && parser->index_matched && demux->damage_count == 0;
     return GVC_OK;
 }
@@ -160,7 +219,8 @@ gvc_result gvc_demux_open(const gvc_io *io, const gvc_read_options *options, gvc
         io->size > UINT64_MAX / SCAN_BUDGET_FILES ? UINT64_MAX : SCAN_BUDGET_FILES * io->size;
     uint64_t end = 0;
     gvc_result result;
-    GVC_CHECK(parse_head(&parser, &end, error));
+    demux->index_offset = io->size;
+    GVC_CHECK(parse_some_head(&parser, &end, error));
     GVC_CHECK(parse_body(&parser, end, error));
     GVC_CHECK(check_end(&parser, error));
 cleanup:
@@ -168,6 +228,39 @@ cleanup:
     free(parser.met);
     if (result != GVC_OK) gvc_demux_free(demux);
     return result;
+}
+
+gvc_result gvc_demux_head(const gvc_demux *demux, const gvc_io *io, gvc_buffer *head,
+                          gvc_error *error) {
+    size_t size = (size_t)demux->head_size;
+    if (demux->head) {
+        gvc_write_bytes(head, demux->head, size);
+        return head->failed ? gvc_fail_memory(error) : GVC_OK;
+    }
+    if (!gvc_grow((void **)&head->data, &head->capacity, size, 1)) return gvc_fail_memory(error);
+    head->size = size;
+    return io->read(io->user, 0, head->data, size, error);
+}
+
+gvc_result gvc_demux_check_digest(const gvc_demux *demux, const gvc_io *io, gvc_error *error) {
+    uint8_t chunk[1 << 14], digest[GVC_FILE_DIGEST_SIZE];
+    if (demux->digest_offset == 0) {
+        return gvc_fail(error, GVC_ERROR_CORRUPT, "the digest of the file is lost");
+    }
+    gvc_sha256 *state = gvc_sha256_begin();
+    if (!state) return gvc_fail_memory(error);
+    gvc_result result = GVC_OK;
+    for (uint64_t at = 0; at < demux->digest_offset && result == GVC_OK;) {
+        uint64_t left = demux->digest_offset - at;
+        size_t count = left < sizeof chunk ? (size_t)left : sizeof chunk;
+        result = io->read(io->user, at, chunk, count, error);
+        if (result == GVC_OK) gvc_sha256_update(state, chunk, count);
+        at += count;
+    }
+    gvc_sha256_end(state, digest);
+    if (result != GVC_OK || memcmp(digest, demux->digest, sizeof digest) == 0) return result;
+    return gvc_fail(error, GVC_ERROR_CORRUPT,
+                    "the file's bytes do not match the digest at its end");
 }
 
 static const char *const sample_name[GVC_TRACK_KINDS] = {"a picture", "a shape record",
@@ -181,6 +274,13 @@ gvc_result gvc_demux_read(const gvc_demux *demux, const gvc_io *io, gvc_track_ki
     }
     const gvc_sample_entry *sample = &demux->sample[kind][index];
     int64_t frame = (int64_t)sample->presentation;
+    if (sample->offset > io->size || sample->size > io->size - sample->offset) {
+        gvc_box mdat = {.offset = sample->offset, .path = "mdat"};
+        return gvc_at_frame(error,
+                            gvc_box_fail(&mdat, error, GVC_ERROR_CORRUPT, "the file ends within %s",
+                                         kind == GVC_TRACK_SHAPE ? "a shape record" : "a picture"),
+                            frame);
+    }
     if (!gvc_grow((void **)&buffer->data, &buffer->capacity, sample->size, 1)) {
         return gvc_at_frame(error, gvc_fail_memory(error), frame);
     }

@@ -191,7 +191,8 @@ static gvc_result read_samples(gvc_parser *parser, const gvc_box *moof, track_ru
 
 /** Reads all trafs: one of each kind. Sets `*ours` as soon as there is one of our tracks. */
 static gvc_result read_trafs(gvc_parser *parser, const gvc_box *moof,
-                             track_run run[GVC_TRACK_KINDS], bool *ours, gvc_error *error) {
+                             track_run run[GVC_TRACK_KINDS], bool *ours, uint32_t *sequence,
+                             gvc_error *error) {
     gvc_box rest = *moof, traf;
     bool found[GVC_TRACK_KINDS] = {false}, foreign = false;
     *ours = false;
@@ -199,6 +200,10 @@ static gvc_result read_trafs(gvc_parser *parser, const gvc_box *moof,
         gvc_box tfhd;
         uint32_t flags, track_id;
         GVC_TRY(gvc_box_next(&rest, &traf, error));
+        if (traf.type == GVC_BOX_MFHD && gvc_cursor_left(&traf.content) >= 8) {
+            gvc_skip(&traf.content, 4); /* version and flags */
+            *sequence = gvc_read_u32(&traf.content);
+        }
         if (traf.type != GVC_BOX_TRAF) continue;
         GVC_TRY(read_track_id(&traf, &tfhd, &flags, &track_id, error));
         gvc_track_kind kind = gvc_parser_kind(parser, track_id);
@@ -230,21 +235,29 @@ static gvc_result read_trafs(gvc_parser *parser, const gvc_box *moof,
 static const gvc_track_kind data_order[GVC_TRACK_KINDS] = {GVC_TRACK_SHAPE, GVC_TRACK_GEOMETRY,
                                                            GVC_TRACK_EXACT};
 
+/** The first track whose samples do not begin at `*next`, counted from moof, where those of the
+ * track before end; NULL if there is none. Moves `*next` to their end. */
+static const track_run *in_order(const gvc_parser *parser, const track_run *run, uint64_t *next) {
+    for (unsigned i = 0; i < GVC_TRACK_KINDS; i++) {
+        const track_run *of = &run[data_order[i]];
+        if (!parser->demux->has_track[data_order[i]]) continue;
+        if (of->data_offset != *next) return of;
+        *next += of->byte_count;
+    }
+    return NULL;
+}
+
 /** mdat holds the samples of one track after the other, and nothing else: no byte escapes the
  * checksums. */
 static gvc_result check_data(const gvc_parser *parser, const gvc_box *moof, const gvc_box *mdat,
                              const track_run *run, gvc_error *error) {
     uint64_t begin = moof->size + mdat->header_size, next = begin;
-    for (unsigned i = 0; i < GVC_TRACK_KINDS; i++) {
-        const track_run *of = &run[data_order[i]];
-        if (!parser->demux->has_track[data_order[i]]) continue;
-        if (of->data_offset != next) {
-            return gvc_box_fail(moof, error, GVC_ERROR_CORRUPT,
-                                "data offset %llu of track %u; should be %llu",
-                                (unsigned long long)of->data_offset, of->defaults.track_id,
-                                (unsigned long long)next);
-        }
-        next += of->byte_count;
+    const track_run *wrong = in_order(parser, run, &next);
+    if (wrong) {
+        return gvc_box_fail(moof, error, GVC_ERROR_CORRUPT,
+                            "data offset %llu of track %u; should be %llu",
+                            (unsigned long long)wrong->data_offset, wrong->defaults.track_id,
+                            (unsigned long long)next);
     }
     if (next - begin == mdat->size - mdat->header_size) return GVC_OK;
     return gvc_box_fail(
@@ -299,20 +312,23 @@ static gvc_result check_frames(gvc_parser *parser, const gvc_box *moof, const tr
 }
 
 static gvc_result keep_fragment(gvc_parser *parser, const gvc_box *moof, const gvc_box *mdat,
-                                const track_run *run, gvc_error *error) {
+                                const track_run *run, uint32_t sequence, gvc_error *error) {
     gvc_demux *demux = parser->demux;
     GVC_TRY(gvc_parser_grow(parser, (void **)&demux->fragment, &parser->fragment_capacity,
                             demux->fragment_count + 1, sizeof *demux->fragment, error));
     gvc_fragment_entry *fragment = &demux->fragment[demux->fragment_count++];
     *fragment = (gvc_fragment_entry){.offset = moof->offset,
                                      .size = moof->size + mdat->size,
+                                     .moof_size = moof->size,
                                      .first_frame = run[GVC_TRACK_SHAPE].first_frame,
-                                     .frame_count = run[GVC_TRACK_SHAPE].count};
+                                     .frame_count = run[GVC_TRACK_SHAPE].count,
+                                     .sequence = sequence};
     for (unsigned kind = 0; kind < GVC_TRACK_KINDS; kind++) {
         fragment->first_sample[kind] = demux->sample_count[kind];
         demux->sample_count[kind] += run[kind].count;
     }
     parser->next_frame = fragment->first_frame + fragment->frame_count;
+    parser->data_begin = mdat->offset;
     return GVC_OK;
 }
 
@@ -323,10 +339,34 @@ static gvc_result read_data_header(const gvc_parser *parser, const gvc_box *moof
     return gvc_box_fail(mdat, error, GVC_ERROR_CORRUPT, "mdat does not follow its moof");
 }
 
+/** With keep_going, a moof that is right tells all there is to know of its mdat: where the header
+ * of that is damaged, or the file ends within it, the samples that are there can still be had, for
+ * each has a checksum of its own. Lists `defect` and sets `mdat` as it should be; or gives it back
+ * as an error. */
+static gvc_result make_do(gvc_parser *parser, const gvc_box *moof, const track_run *run,
+                          gvc_result result, const gvc_error *defect, gvc_box *mdat,
+                          gvc_error *error) {
+    uint64_t begin = moof->offset + moof->size, left = parser->io->size - begin;
+    uint64_t header = run[GVC_TRACK_SHAPE].data_offset - moof->size, next = moof->size + header;
+    bool known = (header == 8 || header == 16) && in_order(parser, run, &next) == NULL;
+    if (!parser->options->keep_going || !known ||
+        (result != GVC_ERROR_CORRUPT && result != GVC_ERROR_TRUNCATED)) {
+        if (error) *error = *defect;
+        return result;
+    }
+    *mdat = (gvc_box){.type = GVC_BOX_MDAT,
+                      .offset = begin,
+                      .header_size = (uint32_t)header,
+                      .size = next - moof->size};
+    uint64_t damaged = mdat->size > left ? left : header;
+    return gvc_parser_damage(parser, begin, damaged, defect, error);
+}
+
 gvc_result gvc_parse_fragment(gvc_parser *parser, gvc_box *moof, uint64_t *end, gvc_error *error) {
     track_run run[GVC_TRACK_KINDS] = {{0}};
     gvc_box mdat;
     bool ours;
+    uint32_t sequence = (uint32_t)parser->demux->fragment_count + 1;
     GVC_TRY(gvc_parser_load(parser, moof, error));
     gvc_crc_state state = GVC_CRC_ABSENT;
     if (moof->size >= moof->header_size + GVC_GCRC_SIZE) {
@@ -336,16 +376,26 @@ gvc_result gvc_parse_fragment(gvc_parser *parser, gvc_box *moof, uint64_t *end, 
     if (state == GVC_CRC_WRONG) {
         return gvc_box_fail(moof, error, GVC_ERROR_CORRUPT, "the checksum of moof is wrong");
     }
-    GVC_TRY(read_trafs(parser, moof, run, &ours, error));
-    GVC_TRY(read_data_header(parser, moof, &mdat, error));
-    *end = mdat.offset + mdat.size;
-    if (!ours) return GVC_OK; /* of other tracks, such as sound */
+    GVC_TRY(read_trafs(parser, moof, run, &ours, &sequence, error));
+    if (!ours) { /* of other tracks, such as sound */
+        GVC_TRY(read_data_header(parser, moof, &mdat, error));
+        *end = mdat.offset + mdat.size;
+        return GVC_OK;
+    }
     if (state == GVC_CRC_ABSENT) {
         return gvc_box_fail(moof, error, GVC_ERROR_CORRUPT,
                             "moof does not end with its checksum (gcrc)");
     }
-    GVC_TRY(check_data(parser, moof, &mdat, run, error));
     GVC_TRY(check_same_frames(parser, moof, run, error));
     GVC_TRY(check_frames(parser, moof, &run[GVC_TRACK_SHAPE], error));
-    return keep_fragment(parser, moof, &mdat, run, error);
+    gvc_error defect;
+    gvc_error_init(&defect);
+    gvc_result result = read_data_header(parser, moof, &mdat, &defect);
+    if (result == GVC_OK) result = check_data(parser, moof, &mdat, run, &defect);
+    if (result != GVC_OK) {
+        GVC_TRY(make_do(parser, moof, run, result, &defect, &mdat, error));
+    }
+    uint64_t left = parser->io->size - mdat.offset;
+    *end = mdat.offset + (mdat.size < left ? mdat.size : left);
+    return keep_fragment(parser, moof, &mdat, run, sequence, error);
 }

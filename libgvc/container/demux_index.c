@@ -1,13 +1,22 @@
 /* SPDX-License-Identifier: MIT */
-/** @file demux_index.c  Reads the closing index (mfra) and compares it with the fragments. */
+/** @file demux_index.c  Reads the closing index (mfra) and compares it with the fragments; gaps. */
 #include "base/digest.h"
+#include "base/memory.h"
 #include "container/parser.h"
 
-/** mfra ends with gcrc and mfro. */
+#include <stdlib.h>
+#include <string.h>
+#include <zstd.h>
+
+/* More than any head takes; a copy that claims to be longer is not expanded. */
+#define MAX_HEAD_SIZE (UINT64_C(1) << 24)
+
+/** mfra ends with gdig, gcrc and mfro. */
 static gvc_result check_tail(const gvc_parser *parser, const gvc_box *mfra, gvc_error *error) {
-    size_t least = mfra->header_size + GVC_GCRC_SIZE + GVC_MFRO_SIZE, size = (size_t)mfra->size;
+    size_t least = mfra->header_size + GVC_GDIG_SIZE + GVC_GCRC_SIZE + GVC_MFRO_SIZE;
+    size_t size = (size_t)mfra->size;
     gvc_crc_state state = GVC_CRC_ABSENT;
-    bool has_mfro = false;
+    bool has_mfro = false, has_digest = false;
     if (size >= least) {
         const uint8_t *gcrc = parser->scratch + size - GVC_MFRO_SIZE - GVC_GCRC_SIZE;
         uint32_t crc = gvc_crc32(0, parser->scratch, (size_t)(gcrc - parser->scratch));
@@ -15,10 +24,19 @@ static gvc_result check_tail(const gvc_parser *parser, const gvc_box *mfra, gvc_
         gvc_cursor mfro = gvc_cursor_make(gcrc + GVC_GCRC_SIZE, GVC_MFRO_SIZE);
         bool is_mfro = gvc_read_u32(&mfro) == GVC_MFRO_SIZE && gvc_read_u32(&mfro) == GVC_BOX_MFRO;
         has_mfro = is_mfro && gvc_read_u32(&mfro) == 0 && gvc_read_u32(&mfro) == mfra->size;
+        gvc_cursor gdig = gvc_cursor_make(gcrc - GVC_GDIG_SIZE, GVC_GDIG_SIZE);
+        has_digest = gvc_read_u32(&gdig) == GVC_GDIG_SIZE && gvc_read_u32(&gdig) == GVC_BOX_GDIG &&
+                     gvc_read_u32(&gdig) == 0;
+        const uint8_t *digest = gcrc - GVC_FILE_DIGEST_SIZE;
+        if (state == GVC_CRC_RIGHT && has_digest) {
+            memcpy(parser->demux->digest, digest, GVC_FILE_DIGEST_SIZE);
+            parser->demux->digest_offset = mfra->offset + (uint64_t)(digest - parser->scratch);
+        }
     }
-    if (state == GVC_CRC_RIGHT && has_mfro) return GVC_OK;
+    if (state == GVC_CRC_RIGHT && has_mfro && has_digest) return GVC_OK;
     return gvc_box_fail(mfra, error, GVC_ERROR_CORRUPT,
-                        "the index does not end with its right checksum (gcrc) and size (mfro)");
+                        "the index does not end with the digest of the file (gdig), its right "
+                        "checksum (gcrc) and its size (mfro)");
 }
 
 /** Reads a number of 1 to 4 bytes. */
@@ -94,5 +112,83 @@ gvc_result gvc_parse_index(gvc_parser *parser, gvc_box *mfra, gvc_error *error) 
                             parser->demux->has_track[GVC_TRACK_GEOMETRY] ? "geometry" : "exact");
     }
     parser->closed = true;
+    parser->demux->index_offset = mfra->offset;
+    return GVC_OK;
+}
+
+/* ------------------------------------------------------------------------------ copy of the head
+ */
+
+static gvc_result expand_head(gvc_parser *parser, gvc_box *ghed, gvc_error *error) {
+    gvc_demux *demux = parser->demux;
+    uint8_t version;
+    uint32_t flags;
+    GVC_TRY(gvc_box_version(ghed, 0, &version, &flags, error));
+    size_t size = gvc_cursor_left(&ghed->content), capacity = 0;
+    const uint8_t *packed = gvc_read_bytes(&ghed->content, size);
+    unsigned long long expanded = ZSTD_getFrameContentSize(packed, size);
+    if (expanded == ZSTD_CONTENTSIZE_UNKNOWN || expanded == ZSTD_CONTENTSIZE_ERROR ||
+        expanded > MAX_HEAD_SIZE) {
+        return gvc_box_fail(ghed, error, GVC_ERROR_CORRUPT, "no copy of the head");
+    }
+    GVC_TRY(gvc_parser_grow(parser, (void **)&demux->head, &capacity, (size_t)expanded, 1, error));
+    demux->head_size = expanded;
+    if (ZSTD_decompress(demux->head, (size_t)expanded, packed, size) == expanded) return GVC_OK;
+    return gvc_box_fail(ghed, error, GVC_ERROR_CORRUPT, "the copy of the head does not expand");
+}
+
+gvc_result gvc_restore_head(gvc_parser *parser, gvc_error *error) {
+    uint8_t bytes[GVC_MFRO_SIZE];
+    uint64_t size = parser->io->size;
+    gvc_box mfra, ghed;
+    if (size < sizeof bytes) return gvc_fail(error, GVC_ERROR_CORRUPT, "no room for an index");
+    GVC_TRY(gvc_parser_read(parser, size - sizeof bytes, bytes, sizeof bytes, error));
+    gvc_cursor mfro = gvc_cursor_make(bytes, sizeof bytes);
+    gvc_skip(&mfro, sizeof bytes - 4);
+    uint32_t length = gvc_read_u32(&mfro);
+    if (length > size) return gvc_fail(error, GVC_ERROR_CORRUPT, "the file does not end with mfro");
+    GVC_TRY(gvc_parser_header(parser, size - length, &mfra, error));
+    if (mfra.type != GVC_BOX_MFRA || mfra.size != length) {
+        return gvc_box_fail(&mfra, error, GVC_ERROR_CORRUPT, "the file does not end with mfra");
+    }
+    GVC_TRY(gvc_parser_load(parser, &mfra, error));
+    GVC_TRY(check_tail(parser, &mfra, error));
+    GVC_TRY(gvc_box_find(&mfra, GVC_BOX_GHED, true, &ghed, error));
+    return expand_head(parser, &ghed, error);
+}
+
+/* ------------------------------------------------------------------------------------------ gaps
+ */
+
+gvc_result gvc_parse_gap(gvc_parser *parser, gvc_box *ggap, gvc_error *error) {
+    gvc_demux *demux = parser->demux;
+    uint8_t version;
+    uint32_t flags;
+    GVC_TRY(gvc_parser_load(parser, ggap, error));
+    if (ggap->size != GVC_GGAP_SIZE || ggap->header_size != 8) {
+        return gvc_box_fail(ggap, error, GVC_ERROR_CORRUPT, "a box of %llu bytes instead of %u",
+                            (unsigned long long)ggap->size, GVC_GGAP_SIZE);
+    }
+    size_t tail = GVC_GGAP_SIZE - GVC_GCRC_SIZE;
+    uint32_t crc = gvc_crc32(0, parser->scratch, tail);
+    if (gvc_box_check_crc(crc, parser->scratch + tail) != GVC_CRC_RIGHT) {
+        return gvc_box_fail(ggap, error, GVC_ERROR_CORRUPT, "the checksum of ggap is wrong");
+    }
+    GVC_TRY(gvc_box_version(ggap, 0, &version, &flags, error));
+    uint64_t first = gvc_read_u64(&ggap->content), count = gvc_read_u64(&ggap->content);
+    uint64_t declared = demux->config.declared_frames, limit = parser->options->max_frames;
+    uint64_t end = declared && declared < limit ? declared : limit;
+    bool after_damage = parser->options->keep_going && first > parser->next_frame;
+    if ((first != parser->next_frame && !after_damage) || count == 0 || first > end ||
+        count > end - first) {
+        return gvc_box_fail(ggap, error, GVC_ERROR_CORRUPT,
+                            "a gap of %llu frames from %llu on, expected at %llu",
+                            (unsigned long long)count, (unsigned long long)first,
+                            (unsigned long long)parser->next_frame);
+    }
+    GVC_TRY(gvc_parser_grow(parser, (void **)&demux->gap, &parser->gap_capacity,
+                            demux->gap_count + 1, sizeof *demux->gap, error));
+    demux->gap[demux->gap_count++] = (gvc_gap){ggap->offset, first, count};
+    parser->next_frame = first + count;
     return GVC_OK;
 }

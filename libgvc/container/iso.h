@@ -61,6 +61,11 @@
 #define GVC_BOX_GVCC GVC_FOURCC('g', 'v', 'c', 'C') /**< facts of the whole file: config.h */
 #define GVC_BOX_GCKS GVC_FOURCC('g', 'c', 'k', 's') /**< in traf: CRC-32 of each sample */
 #define GVC_BOX_GCRC GVC_FOURCC('g', 'c', 'r', 'c') /**< CRC-32 of what stands before it */
+#define GVC_BOX_GGAP                                                                               \
+    GVC_FOURCC('g', 'g', 'a', 'p')                  /**< between fragments: frames that are lost   \
+                                                     */
+#define GVC_BOX_GHED GVC_FOURCC('g', 'h', 'e', 'd') /**< in mfra: a copy of ftyp and moov */
+#define GVC_BOX_GDIG GVC_FOURCC('g', 'd', 'i', 'g') /**< in mfra: SHA-256 of the file before it */
 
 #define GVC_HANDLER_VIDEO GVC_FOURCC('v', 'i', 'd', 'e')
 #define GVC_HANDLER_META GVC_FOURCC('m', 'e', 't', 'a')
@@ -73,7 +78,11 @@
 #define GVC_EXACT_URI_STEM "urn:gvc:exact:"
 #define GVC_EXACT_URI GVC_EXACT_URI_STEM "0"
 
-#define GVC_GCRC_SIZE 16u   /**< of a whole gcrc box: header, version and flags, CRC-32 */
+#define GVC_GCRC_SIZE 16u /**< of a whole gcrc box: header, version and flags, CRC-32 */
+#define GVC_GGAP_SIZE                                                                              \
+    44u                     /**< of a whole ggap box: header, version and flags, two numbers, gcrc \
+                             */
+#define GVC_GDIG_SIZE 44u   /**< of a whole gdig box: header, version and flags, digest */
 #define GVC_MFRO_SIZE 16u   /**< of a whole mfro box: header, version and flags, size of mfra */
 #define GVC_AVC1_FIELDS 78u /**< bytes of a VisualSampleEntry before its boxes */
 #define GVC_URIM_FIELDS 8u  /**< bytes of a SampleEntry before its boxes */

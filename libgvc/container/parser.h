@@ -27,7 +27,9 @@ typedef struct gvc_parser {
     size_t scratch_capacity;
     uint8_t *met; /**< per frame of a fragment: whether a sample shows it */
     size_t met_capacity;
-    size_t fragment_capacity, sample_capacity[GVC_TRACK_KINDS], damage_capacity;
+    size_t fragment_capacity, sample_capacity[GVC_TRACK_KINDS], damage_capacity, gap_capacity;
+    uint64_t unknown; /**< where boxes not known begin that end at this place; 0: there are none */
+    uint64_t data_begin;  /**< where the data of the last fragment begin */
     uint64_t next_frame;  /**< presentation number that the next fragment should begin with */
     uint64_t scan_budget; /**< bytes that may still be checksummed while looking for a moof */
     bool closed;          /**< mfra has been read */
@@ -68,8 +70,13 @@ gvc_result gvc_parse_moov(gvc_parser *parser, gvc_box *moov, bool has_brand, gvc
 gvc_result gvc_parse_fragment(gvc_parser *parser, gvc_box *moof, uint64_t *end, gvc_error *error);
 /** The mfra box, which must end the file. */
 gvc_result gvc_parse_index(gvc_parser *parser, gvc_box *mfra, gvc_error *error);
-/** Looks from `from` on for a moof whose checksum is right; `*found` is its offset or the end of
- * the file. */
-gvc_result gvc_scan_for_moof(gvc_parser *parser, uint64_t from, uint64_t *found, gvc_error *error);
+/** A ggap box. */
+gvc_result gvc_parse_gap(gvc_parser *parser, gvc_box *ggap, gvc_error *error);
+/** Expands the copy of the head in the index at the end of the file, whatever else is damaged, to
+ * demux->head. GVC_ERROR_CORRUPT if there is none to be had. */
+gvc_result gvc_restore_head(gvc_parser *parser, gvc_error *error);
+/** Looks from `from` on for a moof, or an index, whose checksum is right; `*found` is its offset or
+ * the end of the file. */
+gvc_result gvc_scan_for_box(gvc_parser *parser, uint64_t from, uint64_t *found, gvc_error *error);
 
 #endif

@@ -10,6 +10,9 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <zstd.h>
+
+enum { COPY_SIZE = 1 << 14, HEAD_COPY_LEVEL = 19 };
 
 /** What mfra will say of a fragment. */
 typedef struct index_entry {
@@ -23,7 +26,9 @@ struct gvc_writer {
     bool has_geometry, has_exact;
     uint64_t declared_frames, next_frame, byte_count;
     uint32_t sequence;
-    gvc_buffer buffer; /**< the box being put together */
+    gvc_buffer buffer;  /**< the box being put together */
+    gvc_buffer head;    /**< ftyp and moov, to be copied to the end */
+    gvc_sha256 *digest; /**< of all bytes written; NULL once it is in the file */
     index_entry *entry;
     size_t entry_count, entry_capacity;
     bool closed; /**< finished, or failed halfway: nothing may be written any more */
@@ -32,6 +37,7 @@ struct gvc_writer {
 static gvc_result put(gvc_writer *writer, const void *data, size_t size, gvc_error *error) {
     GVC_TRY(writer->sink.write(writer->sink.user, data, size, error));
     writer->byte_count += size;
+    if (writer->digest) gvc_sha256_update(writer->digest, data, size);
     return GVC_OK;
 }
 
@@ -55,25 +61,73 @@ static gvc_result check_config(const gvc_config *config, gvc_buffer *scratch, gv
     return GVC_ERROR_ARGUMENT;
 }
 
+static gvc_result make_writer(const gvc_sink *sink, const gvc_config *config, gvc_writer **writer,
+                              gvc_error *error) {
+    *writer = gvc_alloc(1, sizeof **writer);
+    if (!*writer) return gvc_fail_memory(error);
+    **writer = (gvc_writer){.sink = *sink,
+                            .frame_duration = config->frame_rate_den,
+                            .declared_frames = config->declared_frames,
+                            .digest = gvc_sha256_begin()};
+    return (*writer)->digest ? GVC_OK : gvc_fail_memory(error);
+}
+
+static gvc_result put_head(gvc_writer *writer, gvc_error *error) {
+    if (writer->head.failed) return gvc_fail_memory(error);
+    return put(writer, writer->head.data, writer->head.size, error);
+}
+
 gvc_result gvc_writer_create(const gvc_sink *sink, const gvc_config *config,
                              const uint8_t *avc_config, size_t avc_config_size, gvc_writer **writer,
                              gvc_error *error) {
     *writer = NULL;
-    gvc_writer *made = gvc_alloc(1, sizeof *made);
-    if (!made) return gvc_fail_memory(error);
-    *made = (gvc_writer){.sink = *sink,
-                         .has_geometry = avc_config != NULL,
-                         .has_exact = config->features & GVC_FEATURE_EXACT,
-                         .frame_duration = config->frame_rate_den,
-                         .declared_frames = config->declared_frames};
+    gvc_writer *made;
     gvc_result result;
+    GVC_CHECK(make_writer(sink, config, &made, error));
     GVC_CHECK(check_config(config, &made->buffer, error));
+    made->has_geometry = avc_config != NULL;
+    made->has_exact = config->features & GVC_FEATURE_EXACT;
     if (!made->has_geometry && !made->has_exact) {
         result = gvc_fail(error, GVC_ERROR_ARGUMENT, "a file without geometry images");
         goto cleanup;
     }
-    gvc_write_head(config, avc_config, avc_config_size, &made->buffer);
-    GVC_CHECK(put_buffer(made, error));
+    gvc_write_head(config, avc_config, avc_config_size, &made->head);
+    GVC_CHECK(put_head(made, error));
+    *writer = made;
+    return GVC_OK;
+cleanup:
+    gvc_writer_destroy(&made);
+    return result;
+}
+
+/** True if the tracks of a file have the numbers and times that they have here. */
+static bool is_laid_out_alike(const gvc_demux *demux) {
+    static const uint32_t number[GVC_TRACK_KINDS] = {[GVC_TRACK_GEOMETRY] = GVC_GEOMETRY_TRACK,
+                                                     [GVC_TRACK_SHAPE] = GVC_SHAPE_TRACK,
+                                                     [GVC_TRACK_EXACT] = GVC_EXACT_TRACK};
+    for (unsigned kind = 0; kind < GVC_TRACK_KINDS; kind++) {
+        uint32_t later = kind == GVC_TRACK_GEOMETRY ? GVC_SHOWN_LATER : 0;
+        if (!demux->has_track[kind]) continue;
+        if (demux->track_id[kind] != number[kind] || demux->shown_later[kind] != later)
+            return false;
+    }
+    return true;
+}
+
+gvc_result gvc_writer_create_from(const gvc_sink *sink, const gvc_demux *demux, const gvc_io *io,
+                                  gvc_writer **writer, gvc_error *error) {
+    *writer = NULL;
+    gvc_writer *made = NULL;
+    gvc_result result;
+    if (!is_laid_out_alike(demux)) {
+        return gvc_fail(error, GVC_ERROR_UNSUPPORTED,
+                        "the file's tracks have other numbers or times than this library writes");
+    }
+    GVC_CHECK(make_writer(sink, &demux->config, &made, error));
+    made->has_geometry = demux->has_track[GVC_TRACK_GEOMETRY];
+    made->has_exact = demux->has_track[GVC_TRACK_EXACT];
+    GVC_CHECK(gvc_demux_head(demux, io, &made->head, error));
+    GVC_CHECK(put_head(made, error));
     *writer = made;
     return GVC_OK;
 cleanup:
@@ -246,6 +300,12 @@ static size_t write_traf(const gvc_writer *writer, uint32_t track, const gvc_sam
     return data_offset;
 }
 
+static void write_mdat_header(gvc_buffer *buffer, uint64_t size, uint32_t header_size) {
+    gvc_write_u32(buffer, header_size == 16 ? 1 : (uint32_t)size);
+    gvc_write_u32(buffer, GVC_BOX_MDAT);
+    if (header_size == 16) gvc_write_u64(buffer, size);
+}
+
 /** Order of the tracks in mdat. Shape records come first: they are small, and a receiver then has
  * the weld of every frame when its picture arrives, so that each picture can be shown at once
  * instead of after the whole group. */
@@ -289,9 +349,7 @@ static gvc_result build_moof(gvc_writer *writer, const gvc_fragment *fragment, t
         next += at->byte_count;
     }
     gvc_box_write_crc(buffer, moof, 0);
-    gvc_write_u32(buffer, mdat_header == 16 ? 1 : (uint32_t)(payload + 8));
-    gvc_write_u32(buffer, GVC_BOX_MDAT);
-    if (mdat_header == 16) gvc_write_u64(buffer, payload + 16);
+    write_mdat_header(buffer, payload + mdat_header, mdat_header);
     return buffer->failed ? gvc_fail_memory(error) : GVC_OK;
 }
 
@@ -309,20 +367,26 @@ static uint32_t main_track(const gvc_writer *writer) {
     return writer->has_geometry ? GVC_GEOMETRY_TRACK : GVC_EXACT_TRACK;
 }
 
+/** Sets the next entry of the index, which counts once its fragment has been written. */
+static gvc_result add_entry(gvc_writer *writer, index_entry entry, gvc_error *error) {
+    if (!gvc_grow((void **)&writer->entry, &writer->entry_capacity, writer->entry_count + 1,
+                  sizeof *writer->entry)) {
+        return gvc_fail_memory(error);
+    }
+    writer->entry[writer->entry_count] = entry;
+    return GVC_OK;
+}
+
 gvc_result gvc_writer_fragment(gvc_writer *writer, const gvc_fragment *fragment, gvc_error *error) {
     track_run run[MOST_TRACKS];
     size_t run_count = list_runs(fragment, run);
     GVC_TRY(check_fragment(writer, fragment, run, run_count, error));
     GVC_TRY(build_moof(writer, fragment, run, run_count, error));
-    if (!gvc_grow((void **)&writer->entry, &writer->entry_capacity, writer->entry_count + 1,
-                  sizeof *writer->entry)) {
-        return gvc_fail_memory(error);
-    }
     const gvc_sample *first = fragment->geometry ? fragment->geometry : fragment->exact;
     int64_t shown = offset_ticks(writer, main_track(writer), &first[0]);
-    writer->entry[writer->entry_count] =
-        (index_entry){.offset = writer->byte_count,
-                      .time = fragment->first_frame * writer->frame_duration + (uint64_t)shown};
+    index_entry entry = {.offset = writer->byte_count,
+                         .time = fragment->first_frame * writer->frame_duration + (uint64_t)shown};
+    GVC_TRY(add_entry(writer, entry, error));
     writer->closed = true; /* unless all of it gets out */
     GVC_TRY(put_buffer(writer, error));
     for (size_t i = 0; i < MOST_TRACKS; i++) {
@@ -335,6 +399,76 @@ gvc_result gvc_writer_fragment(gvc_writer *writer, const gvc_fragment *fragment,
     writer->next_frame += fragment->frame_count;
     return GVC_OK;
 }
+
+/* ---------------------------------------------------------------------- parts of another file */
+
+static gvc_result check_place(const gvc_writer *writer, uint64_t first, uint64_t count,
+                              gvc_error *error) {
+    uint64_t end = writer->declared_frames ? writer->declared_frames : UINT64_MAX;
+    if (writer->closed) {
+        return gvc_fail(error, GVC_ERROR_ARGUMENT, "the file is finished, or writing it failed");
+    }
+    if (first == writer->next_frame && count > 0 && first <= end && count <= end - first) {
+        return GVC_OK;
+    }
+    return gvc_fail(error, GVC_ERROR_ARGUMENT, "%llu frames from %llu on; the next frame is %llu",
+                    (unsigned long long)count, (unsigned long long)first,
+                    (unsigned long long)writer->next_frame);
+}
+
+static gvc_result copy_bytes(gvc_writer *writer, const gvc_io *io, uint64_t offset, uint64_t size,
+                             gvc_error *error) {
+    uint8_t chunk[COPY_SIZE];
+    while (size > 0) {
+        size_t count = size < sizeof chunk ? (size_t)size : sizeof chunk;
+        GVC_TRY(io->read(io->user, offset, chunk, count, error));
+        GVC_TRY(put(writer, chunk, count, error));
+        offset += count;
+        size -= count;
+    }
+    return GVC_OK;
+}
+
+gvc_result gvc_writer_copy(gvc_writer *writer, const gvc_demux *demux, const gvc_io *io,
+                           size_t index, gvc_error *error) {
+    const gvc_fragment_entry *fragment = &demux->fragment[index];
+    gvc_track_kind kind = gvc_demux_main(demux);
+    const gvc_sample_entry *first = &demux->sample[kind][fragment->first_sample[kind]];
+    GVC_TRY(check_place(writer, fragment->first_frame, fragment->frame_count, error));
+    uint64_t shown = first->presentation + (kind == GVC_TRACK_GEOMETRY ? GVC_SHOWN_LATER : 0);
+    index_entry entry = {writer->byte_count, shown * writer->frame_duration};
+    GVC_TRY(add_entry(writer, entry, error));
+    writer->closed = true; /* unless all of it gets out */
+    uint64_t data = demux->sample[GVC_TRACK_SHAPE][fragment->first_sample[GVC_TRACK_SHAPE]].offset;
+    uint64_t moof_end = fragment->offset + fragment->moof_size;
+    uint64_t end = fragment->offset + fragment->size;
+    gvc_buffer_clear(&writer->buffer);
+    write_mdat_header(&writer->buffer, end - moof_end, (uint32_t)(data - moof_end));
+    GVC_TRY(copy_bytes(writer, io, fragment->offset, fragment->moof_size, error));
+    GVC_TRY(put_buffer(writer, error));
+    GVC_TRY(copy_bytes(writer, io, data, end - data, error));
+    writer->closed = false;
+    writer->entry_count++;
+    writer->sequence = fragment->sequence;
+    writer->next_frame += fragment->frame_count;
+    return GVC_OK;
+}
+
+gvc_result gvc_writer_gap(gvc_writer *writer, uint64_t count, gvc_error *error) {
+    gvc_buffer *buffer = &writer->buffer;
+    GVC_TRY(check_place(writer, writer->next_frame, count, error));
+    gvc_buffer_clear(buffer);
+    size_t ggap = gvc_box_begin_full(buffer, GVC_BOX_GGAP, 0, 0);
+    gvc_write_u64(buffer, writer->next_frame);
+    gvc_write_u64(buffer, count);
+    gvc_patch_u32(buffer, ggap, GVC_GGAP_SIZE);
+    gvc_box_write_crc(buffer, ggap, 0);
+    GVC_TRY(put_buffer(writer, error));
+    writer->next_frame += count;
+    return GVC_OK;
+}
+
+/* --------------------------------------------------------------------------------------- index */
 
 static void write_tfra(const gvc_writer *writer, gvc_buffer *buffer) {
     size_t tfra = gvc_box_begin_full(buffer, GVC_BOX_TFRA, 1, 0);
@@ -351,6 +485,36 @@ static void write_tfra(const gvc_writer *writer, gvc_buffer *buffer) {
     gvc_box_end(buffer, tfra);
 }
 
+/** The head once more, packed, so that the file survives the loss of its beginning. */
+static gvc_result write_head_copy(const gvc_writer *writer, gvc_buffer *buffer, gvc_error *error) {
+    size_t room = ZSTD_compressBound(writer->head.size);
+    uint8_t *packed = gvc_alloc(room, 1);
+    if (!packed) return gvc_fail_memory(error);
+    size_t size =
+        ZSTD_compress(packed, room, writer->head.data, writer->head.size, HEAD_COPY_LEVEL);
+    gvc_result result = GVC_OK;
+    if (ZSTD_isError(size)) {
+        result = gvc_fail(error, GVC_ERROR_MEMORY, "zstd: %s", ZSTD_getErrorName(size));
+    } else {
+        size_t ghed = gvc_box_begin_full(buffer, GVC_BOX_GHED, 0, 0);
+        gvc_write_bytes(buffer, packed, size);
+        gvc_box_end(buffer, ghed);
+    }
+    free(packed);
+    return result;
+}
+
+/** The digest of all bytes of the file up to here, with the head of its own box. */
+static void write_digest(gvc_writer *writer, gvc_buffer *buffer) {
+    uint8_t digest[GVC_FILE_DIGEST_SIZE];
+    size_t gdig = gvc_box_begin_full(buffer, GVC_BOX_GDIG, 0, 0);
+    gvc_patch_u32(buffer, gdig, GVC_GDIG_SIZE);
+    if (!buffer->failed) gvc_sha256_update(writer->digest, buffer->data, buffer->size);
+    gvc_sha256_end(writer->digest, digest);
+    writer->digest = NULL;
+    gvc_write_bytes(buffer, digest, sizeof digest);
+}
+
 gvc_result gvc_writer_finish(gvc_writer *writer, gvc_error *error) {
     if (writer->closed) {
         return gvc_fail(error, GVC_ERROR_ARGUMENT, "the file is finished, or writing it failed");
@@ -364,12 +528,14 @@ gvc_result gvc_writer_finish(gvc_writer *writer, gvc_error *error) {
     gvc_buffer_clear(buffer);
     size_t mfra = gvc_box_begin(buffer, GVC_BOX_MFRA);
     write_tfra(writer, buffer);
-    uint64_t mfra_size = (uint64_t)buffer->size + GVC_GCRC_SIZE + GVC_MFRO_SIZE;
+    GVC_TRY(write_head_copy(writer, buffer, error));
+    uint64_t mfra_size = (uint64_t)buffer->size + GVC_GDIG_SIZE + GVC_GCRC_SIZE + GVC_MFRO_SIZE;
     if (mfra_size > UINT32_MAX) {
         return gvc_fail(error, GVC_ERROR_LIMIT, "%zu fragments are too many for an index",
                         writer->entry_count);
     }
     gvc_patch_u32(buffer, mfra, (uint32_t)mfra_size);
+    write_digest(writer, buffer);
     gvc_box_write_crc(buffer, mfra, 0);
     size_t mfro = gvc_box_begin_full(buffer, GVC_BOX_MFRO, 0, 0);
     gvc_write_u32(buffer, (uint32_t)mfra_size); /* must be last: it is read from the file's end */
@@ -383,6 +549,8 @@ uint64_t gvc_writer_byte_count(const gvc_writer *writer) { return writer->byte_c
 void gvc_writer_destroy(gvc_writer **writer) {
     if (!writer || !*writer) return;
     gvc_buffer_free(&(*writer)->buffer);
+    gvc_buffer_free(&(*writer)->head);
+    gvc_sha256_end((*writer)->digest, NULL);
     free((*writer)->entry);
     free(*writer);
     *writer = NULL;

@@ -5,13 +5,12 @@
  * put together in the same order in every frame: root, tips, handles. So it is the same graph, up
  * to the handles, over any number of segments.
  */
-#include "descriptor/tracking.h"
+#include "descriptor/tracked.h"
 
 #include "base/memory.h"
 #include "descriptor/consistent.h"
 #include "descriptor/geodesic.h"
 #include "descriptor/handle_graph.h"
-#include "descriptor/handle_link.h"
 #include "descriptor/match.h"
 
 #include <math.h>
@@ -32,36 +31,6 @@ static const double renewal = 0.1;
 static const double join_reach = 0.02;
 /* A handle that is gone is looked for again for so many frames. */
 enum { HANDLE_MEMORY = 8 };
-
-/* What is known of the frame cut last. */
-typedef struct gvc_tracked {
-    bool started;
-    bool single;          /* nothing else is known, by intention */
-    size_t genus, wanted; /* extrema asked for */
-    unsigned search;      /* gvc_handle_search */
-    /* Of the first frame: each frame is compared with the one before it, and a normalisation of its
-     * own would only add the noise of two greatest distances. */
-    double diagonal, scale;
-    size_t tip_count,
-        matched_count;  /* tips made up for want of extrema come after the matched ones */
-    gvc_extremum *tip;  /* as last seen */
-    double *tip_point;  /* their coordinates */
-    double *root_point; /* distances as in the segment's first frame, so that nothing drifts along
-                           with small errors; position as last seen */
-    size_t link_count;
-    gvc_link *link; /* one per tip */
-    size_t handle_count;
-    gvc_handle_link *handle; /* `genus` of them are open */
-    size_t side_count;       /* the border of the opened surface */
-    gvc_border_side *side;
-} gvc_tracked;
-
-struct gvc_tracker {
-    gvc_tracker_options options;
-    gvc_pathfinder *finder;
-    gvc_tracked known, aside;
-    bool lost; /* the frame seen last could not be cut like that */
-};
 
 void gvc_tracker_options_init(gvc_tracker_options *options) {
     *options = (gvc_tracker_options){.prior_weight = 1, .shortest_weight = 0.05, .lambda = 0.95};

@@ -3,6 +3,7 @@
 #ifndef GVC_DESCRIPTOR_TRACKING_H
 #define GVC_DESCRIPTOR_TRACKING_H
 
+#include "base/state.h"
 #include "descriptor/cut_graph.h"
 #include "descriptor/features.h"
 #include "descriptor/warp.h"
@@ -64,5 +65,9 @@ gvc_result gvc_tracker_resume(gvc_tracker *tracker, const gvc_features *features
 void gvc_tracker_set_aside(gvc_tracker *tracker);
 /** and goes back to it. */
 void gvc_tracker_take_back(gvc_tracker *tracker);
+
+/** Saves what is known of the frame cut last, or loads it into a new tracker of the same options.
+ */
+void gvc_tracker_state(gvc_tracker *tracker, gvc_state *state);
 
 #endif

@@ -2,8 +2,11 @@
 /** @file scan.c  First pass over a capture. */
 #include "encode/scan.h"
 
+#include "base/digest.h"
 #include "base/parallel.h"
 #include "mesh/file.h"
+
+#include <string.h>
 
 #define CHUNK 64 /* frames between two progress reports */
 
@@ -41,6 +44,20 @@ static gvc_result refuse(const gvc_topology *t, gvc_error *error) {
     return GVC_OK;
 }
 
+/* The first eight bytes of SHA-256, as of decoded frames. */
+static gvc_result digest_mesh(const gvc_mesh *mesh, uint8_t digest[8], gvc_error *error) {
+    uint8_t full[32];
+    uint64_t counts[2] = {mesh->vertex_count, mesh->face_count};
+    gvc_sha256 *state = gvc_sha256_begin();
+    if (!state) return gvc_fail_memory(error);
+    gvc_sha256_update(state, counts, sizeof counts);
+    gvc_sha256_update(state, mesh->position, 3 * mesh->vertex_count * sizeof *mesh->position);
+    gvc_sha256_update(state, mesh->face, 3 * mesh->face_count * sizeof *mesh->face);
+    gvc_sha256_end(state, full);
+    memcpy(digest, full, 8);
+    return GVC_OK;
+}
+
 gvc_result gvc_load_frame(const gvc_source *source, uint64_t frame, bool weld, gvc_mesh **mesh,
                           gvc_scan_frame *facts, gvc_error *error) {
     gvc_mesh *raw = NULL;
@@ -70,6 +87,7 @@ gvc_result gvc_load_frame(const gvc_source *source, uint64_t frame, bool weld, g
         facts->vertex_count = topology.vertex_count;
         facts->face_count = topology.face_count;
         facts->welded = welded;
+        return digest_mesh(*mesh, facts->digest, error);
     }
     return GVC_OK;
 }

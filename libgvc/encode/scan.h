@@ -10,7 +10,8 @@ typedef struct gvc_scan_frame {
     double minimum[3], maximum[3];
     int64_t genus;
     uint64_t vertex_count, face_count;
-    size_t welded; /**< vertices merged along texture seams */
+    size_t welded;     /**< vertices merged along texture seams */
+    uint8_t digest[8]; /**< of positions and faces, to know the frame again */
 } gvc_scan_frame;
 
 /** Reads and cleans one frame and makes sure that it is one closed, oriented manifold. The message

@@ -69,6 +69,38 @@ same p2.off good/2.off
 run 1 "$gvc" verify bad.gvc
 says 'frame 1'
 
+# -------------------------------------------------------------------------------- verify and repair
+run 1 "$gvc" verify bad.gvc
+says 'fragment 2, geometry track, frame 1, byte' 'checksum of a picture'
+run 0 "$gvc" repair bad.gvc -o good.gvc
+says 'lost: frame 1' '2 of 3 frames saved'
+run 0 "$gvc" verify good.gvc
+grep -q '2 of 3 frames good, 1 lost before it was repaired' stdout.txt || complain "verify does not tell of the gap"
+run 0 "$gvc" info good.gvc
+grep -q 'lost *1 frames' stdout.txt || complain "info does not tell of the gap"
+run 0 "$gvc" decode -q good.gvc -o 'r/%d.off'
+says '1 of 3 frames were lost'
+absent r/1.off
+same r/0.off good/0.off
+same r/2.off good/2.off
+run 1 "$gvc" decode -q good.gvc --frames 1 -o r1.off
+says 'frame 1' 'lost before'
+absent r1.off
+run 1 "$gvc" repair bad.gvc -o good.gvc
+says good.gvc -f
+run 1 "$gvc" repair missing.gvc -o x.gvc
+says missing.gvc
+absent x.gvc
+run 2 "$gvc" repair bad.gvc
+run 0 "$gvc" repair -q -f good.gvc -o again.gvc
+same again.gvc good.gvc
+damaged 100 # the head, of which there is a copy
+run 1 "$gvc" verify bad.gvc
+says 'head, byte 0-'
+grep -q '3 of 3 frames good' stdout.txt || complain "the head is not taken from its copy"
+run 0 "$gvc" repair -q -f bad.gvc -o good.gvc
+same good.gvc a.gvc
+
 # --------------------------------------------------------------------------------------- cut off
 for cut in 3 $((moof + 8)) $((end - 1)) "$end" $((size - 1)); do
     head -c "$cut" a.gvc >cut.gvc

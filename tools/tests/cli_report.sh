@@ -32,6 +32,15 @@ run 0 "$gvc" info --json --frames a.gvc
 is_json
 [ "$(grep -c '"digest"' stdout.txt)" -eq 3 ] || complain "three frames expected from: $last"
 
+# The digest is of all bytes but the last 64, for any program to check.
+if command -v sha256sum >/dev/null; then
+    run 0 "$gvc" info a.gvc
+    digest=$(head -c $(($(wc -c <a.gvc) - 64)) a.gvc | sha256sum | cut -d ' ' -f 1)
+    grep -q "SHA-256 *$digest" stdout.txt || complain "the digest of the file is not $digest"
+    run 0 "$gvc" info --json a.gvc
+    grep -q "\"sha256\": \"$digest\"" stdout.txt || complain "no digest in: $last"
+fi
+
 run 0 "$gvc" verify a.gvc
 grep -q '3 of 3 frames good' stdout.txt || complain "verify does not count"
 run 0 "$gvc" verify -q a.gvc

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# An encode that is interrupted ends with status 1 and leaves nothing behind.
+# An encode that is interrupted ends with status 1 and leaves nothing behind but groups that are finished.
 . "$(dirname "$0")/common.sh"
 
 # A capture that takes a few seconds.
@@ -20,6 +20,10 @@ for signal in INT TERM; do
     [ "$status" -eq 1 ] || complain "status $status instead of 1: $last"
     says cancelled
     absent out.gvc
+    if [ -e out.gvc.part ]; then # a group was finished
+        says out.gvc.part --resume
+        rm -f out.gvc.part out.gvc.part-journal out.gvc.part-state
+    fi
     no_leftovers
 done
 

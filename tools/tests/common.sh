@@ -51,7 +51,7 @@ same() { cmp -s "$1" "$2" || complain "$1 and $2 differ after: $last"; }
 
 # Nothing unfinished lies about.
 no_leftovers() {
-    left=$(find . -name '*.part-*' -o -name '*.tmp-*')
+    left=$(find . -name '*.part*' -o -name '*.tmp-*')
     [ -z "$left" ] || complain "left behind by $last: $left"
 }
 

@@ -53,6 +53,7 @@ typedef enum gvc_result {
     GVC_ERROR_UNSUPPORTED =
         12,               /**< well-formed, but a feature or version this build does not know */
     GVC_ERROR_LIMIT = 13, /**< well-formed, but beyond a limit the caller set */
+    GVC_ERROR_LOST = 14,  /**< the file says so: lost before it was repaired */
     GVC_ERROR_MESH = 20,  /**< an input mesh that cannot be coded (open, non-manifold, NaN, ...) */
     GVC_ERROR_QUALITY = 21, /**< the geometric error asked for cannot be reached */
     GVC_ERROR_INTERNAL = 99 /**< a bug in this library */
@@ -149,6 +150,8 @@ GVC_API GVC_NODISCARD gvc_result gvc_mesh_distance(const gvc_mesh *first, const 
                                                    size_t samples, gvc_distance *distance,
                                                    gvc_error *error);
 
+typedef struct gvc_reader gvc_reader; /**< an opened file: parsed, immutable, shareable */
+
 /* ------------------------------------------------------------------------------------ encoding */
 
 /** Where frames come from. The encoder reads frames more than once and from several threads at a
@@ -201,6 +204,13 @@ typedef struct gvc_encode_options {
     bool (*progress)(void *user, gvc_stage stage, uint64_t done, uint64_t total);
     /** Warnings, one line without newline; frame or GVC_NO_FRAME. May be NULL. */
     void (*warn)(void *user, int64_t frame, const char *message);
+    /** Lines of a journal, without newline, for gvc_encode_resume: one at the beginning, and one
+     *  after each group of frames has gone into the sink. Called from the calling thread; a failure
+     *  ends the encode. May be NULL. */
+    gvc_result (*journal)(void *user, const char *line, gvc_error *error);
+    /** State between two groups, some hundred kilobytes; the last one given lets gvc_encode_resume
+     *  begin there. Good only for the same build on the same machine. May be NULL. */
+    gvc_result (*checkpoint)(void *user, const void *data, size_t size, gvc_error *error);
     void *user;
 } gvc_encode_options;
 
@@ -222,9 +232,26 @@ GVC_API GVC_NODISCARD gvc_result gvc_encode(const gvc_source *source, const gvc_
                                             const gvc_encode_options *options,
                                             gvc_encode_report *report, gvc_error *error);
 
+/** What an encode that ended early has left. */
+typedef struct gvc_partial {
+    const gvc_reader *file; /**< what its sink got, opened with keep_going */
+    const char *journal;    /**< its lines, each with a newline */
+    const void *checkpoint; /**< its last state; NULL: frames before are analysed again, which gives
+                                 the same bytes, but takes most of the time of an encode */
+    size_t checkpoint_size;
+} gvc_partial;
+
+/** Goes on with an encode that ended early; source and options must be the same. The sink gets the
+ *  file from its first byte on, and the journal all lines: the same bytes as if nothing had
+ *  happened. Groups of `partial` behind its checkpoint are analysed again but not coded.
+ *  GVC_ERROR_ARGUMENT if source or options are not the same. */
+GVC_API GVC_NODISCARD gvc_result gvc_encode_resume(const gvc_source *source, const gvc_sink *sink,
+                                                   const gvc_encode_options *options,
+                                                   const gvc_partial *partial,
+                                                   gvc_encode_report *report, gvc_error *error);
+
 /* ------------------------------------------------------------------------------------ decoding */
 
-typedef struct gvc_reader gvc_reader;   /**< an opened file: parsed, immutable, shareable */
 typedef struct gvc_decoder gvc_decoder; /**< decodes frames of one reader; one thread at a time */
 
 /** Random-access input. `read` fills exactly `size` bytes at `offset` or fails. Must be thread-safe
@@ -274,6 +301,9 @@ typedef struct gvc_info {
     bool lossless;         /**< there is an exact track: frames are decoded to its 16-bit codes */
     bool preview;          /**< a lossless file that has H.264 pictures, too */
     uint64_t geometry_bytes, shape_bytes, exact_bytes; /**< of all samples of a track */
+    uint64_t lost_count; /**< frames that the file says were lost before it was repaired */
+    uint8_t digest[32];  /**< SHA-256 at the end of the file, of all bytes before it */
+    bool has_digest;     /**< false only for a damaged or cut-off file */
     char unit[16];
     char encoder[64]; /**< program that wrote the file */
 } gvc_info;
@@ -307,6 +337,60 @@ GVC_API void gvc_decoder_destroy(gvc_decoder **decoder);
  * the decoder can be used for other frames. */
 GVC_API GVC_NODISCARD gvc_result gvc_decoder_frame(gvc_decoder *decoder, uint64_t frame,
                                                    gvc_mesh **mesh, gvc_error *error);
+
+/* ------------------------------------------------------------------------ damage and its repair */
+
+typedef enum gvc_part {
+    GVC_PART_HEAD = 0,     /**< ftyp or moov */
+    GVC_PART_FRAGMENT = 1, /**< moof, or the header of mdat */
+    GVC_PART_GEOMETRY = 2, /**< a picture */
+    GVC_PART_SHAPE = 3,    /**< a shape record */
+    GVC_PART_EXACT = 4,    /**< an exact image */
+    GVC_PART_INDEX = 5,    /**< mfra, or the end of the file */
+    GVC_PART_FILE = 6      /**< somewhere outside of what checksums cover */
+} gvc_part;
+
+/** A damaged place of a file. */
+typedef struct gvc_defect {
+    gvc_part part;
+    uint64_t offset, size; /**< bytes of the file; size 0 if something is missing there */
+    /** Fragments it lies in, numbered as the file does, from 1; 0 if none. Of a run of lost
+     * fragments that reaches the end of the file the last is not known: 0. */
+    uint32_t first_fragment, last_fragment;
+    /** Frames it is part of. Of GVC_PART_FRAGMENT and GVC_PART_INDEX, those that are lost with it.
+     * Of a picture or record others may depend on it; decoding tells. */
+    uint64_t first_frame, frame_count;
+    gvc_error error; /**< what is wrong */
+} gvc_defect;
+
+/** Looks at every byte of a file without decoding it: structure, checksums of all samples, digest
+ * of the file. Calls `found` for each defect in the order of the file; it returns false to stop
+ *  (GVC_ERROR_CANCELLED). Open the file with keep_going. GVC_OK if all was looked at, whether good
+ * or not. */
+GVC_API GVC_NODISCARD gvc_result gvc_reader_check(const gvc_reader *reader,
+                                                  bool (*found)(void *user,
+                                                                const gvc_defect *defect),
+                                                  void *user, gvc_error *error);
+
+typedef struct gvc_repair_report {
+    uint64_t frame_count;  /**< frames saved */
+    uint64_t lost_count;   /**< frames lost, those lost before among them */
+    uint64_t whole_groups; /**< copied bit for bit */
+    uint64_t cut_groups;   /**< of which frames before the damage were saved */
+    uint64_t byte_count;   /**< of the new file */
+} gvc_repair_report;
+
+/** Writes a good file of what is undamaged in another, which should have been opened with
+ * keep_going. Nothing is decoded or coded again: groups that are whole are copied, of others the
+ * frames before the damage are kept as far as they need nothing behind it. Frames keep their
+ * numbers, and so their times; the file states which are lost. `lost` (may be NULL) is called for
+ * each run of frames lost now. GVC_ERROR_CORRUPT if there is nothing to save. `report` may be NULL.
+ */
+GVC_API GVC_NODISCARD gvc_result gvc_repair(const gvc_reader *reader, const gvc_sink *sink,
+                                            void (*lost)(void *user, uint64_t first_frame,
+                                                         uint64_t frame_count),
+                                            void *user, gvc_repair_report *report,
+                                            gvc_error *error);
 
 #ifdef __cplusplus
 }
