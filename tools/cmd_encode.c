@@ -306,7 +306,9 @@ static gvc_result on_journal(void *user, const char *line, gvc_error *error) {
 
 static gvc_result on_checkpoint(void *user, const void *data, size_t size, gvc_error *error) {
     encode_arguments *a = user;
-    return partial_checkpoint(&a->partial, data, size, error);
+    (void)error;
+    partial_checkpoint(&a->partial, data, size);
+    return GVC_OK;
 }
 
 /* To standard output or a device, which cannot be looked at again, and from geometry images, which
@@ -348,10 +350,15 @@ static gvc_result encode_file(encode_arguments *a, const gvc_source *source,
                           .checkpoint_size = p->state.size};
     result =
         gvc_encode_resume(source, &sink, &a->options, p->reader ? &before : NULL, report, error);
-    if (result == GVC_OK) return partial_end(p, error);
-    bool worth_keeping =
-        result == GVC_ERROR_IO || result == GVC_ERROR_CANCELLED || result == GVC_ERROR_MEMORY;
-    if (partial_leave(p, worth_keeping)) {
+    bool kept = false;
+    if (result == GVC_OK) {
+        result = partial_end(p, error);
+        kept = result != GVC_OK;
+    } else {
+        kept = partial_leave(p, result == GVC_ERROR_IO || result == GVC_ERROR_CANCELLED ||
+                                    result == GVC_ERROR_MEMORY);
+    }
+    if (kept) {
         fprintf(stderr, "gvc encode: what is finished is kept as %s.part; --resume goes on\n",
                 a->output);
     }

@@ -117,17 +117,18 @@ gvc_result partial_note(partial_file *p, const char *line, gvc_error *error) {
     return GVC_OK;
 }
 
-gvc_result partial_checkpoint(partial_file *p, const void *data, size_t size, gvc_error *error) {
+void partial_checkpoint(partial_file *p, const void *data, size_t size) {
     gvc_output output;
-    GVC_TRY(
-        gvc_output_begin_known(p->state_path, NEW_SUFFIX, true, GVC_LEFTOVER_DROP, &output, error));
-    gvc_result result = gvc_output_write(&output, data, size, error);
-    if (result != GVC_OK) {
+    if (gvc_output_begin_known(p->state_path, NEW_SUFFIX, true, GVC_LEFTOVER_DROP, &output, NULL) !=
+        GVC_OK) {
+        return;
+    }
+    if (gvc_output_write(&output, data, size, NULL) != GVC_OK) {
         gvc_output_discard(&output);
-        return result;
+        return;
     }
     gvc_output_sync(&output);
-    return gvc_output_end(&output, error);
+    if (gvc_output_end(&output, NULL) != GVC_OK) (void)unlink(p->state_temporary);
 }
 
 static void forget(partial_file *p) {
@@ -143,8 +144,12 @@ static void forget(partial_file *p) {
 gvc_result partial_end(partial_file *p, gvc_error *error) {
     gvc_output_sync(&p->output);
     gvc_result result = gvc_output_end(&p->output, error);
-    gvc_output_discard(&p->journal);
-    remove_state(p);
+    if (result == GVC_OK) {
+        gvc_output_discard(&p->journal);
+        remove_state(p);
+    } else { /* the disk is full at last, or a file of that name has come into being */
+        gvc_output_leave(&p->journal);
+    }
     forget(p);
     return result;
 }

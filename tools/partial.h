@@ -28,11 +28,11 @@ gvc_result partial_begin(const char *path, bool force, bool resume, partial_file
  * the disk first. */
 gvc_result partial_note(partial_file *partial, const char *line, gvc_error *error);
 
-/** gvc_encode_options.checkpoint: replaces the one before when it is on the disk. */
-gvc_result partial_checkpoint(partial_file *partial, const void *data, size_t size,
-                              gvc_error *error);
+/** For gvc_encode_options.checkpoint: replaces the one before when it is on the disk. If there is
+ * no room for it that stays, and resuming takes longer. */
+void partial_checkpoint(partial_file *partial, const void *data, size_t size);
 
-/** Gives the finished file its name and removes what lay beside it. */
+/** Gives the finished file its name and removes what lay beside it; if that fails all is kept. */
 gvc_result partial_end(partial_file *partial, gvc_error *error);
 
 /** After a failure. Keeps what is finished, if anything is and `worth_keeping`, or if an earlier

@@ -119,7 +119,7 @@ static gvc_result open_known(gvc_output *o, gvc_leftover leftover, gvc_error *er
 gvc_result gvc_output_begin_known(const char *path, const char *suffix, bool overwrite,
                                   gvc_leftover leftover, gvc_output *output, gvc_error *error) {
     struct stat status;
-    *output = (gvc_output){.path = path, .descriptor = -1, .overwrite = overwrite};
+    *output = (gvc_output){.path = path, .descriptor = -1, .overwrite = overwrite, .known = true};
     if (!overwrite && gvc_output_in_the_way(path)) return fail_exists(output, error);
     if (lstat(path, &status) == 0 && S_ISDIR(status.st_mode)) {
         return gvc_fail_errno(error, "write", EISDIR, path);
@@ -257,7 +257,7 @@ gvc_result gvc_output_end(gvc_output *o, gvc_error *error) {
     gvc_result result = GVC_OK;
     if (o->failure) result = gvc_fail_errno(error, "write", o->failure, o->path);
     if (result == GVC_OK && o->temporary) result = publish(o, error);
-    if (result != GVC_OK && o->temporary) unlink(o->temporary);
+    if (result != GVC_OK && o->temporary && !o->known) unlink(o->temporary);
     forget(o);
     return result;
 }

@@ -19,6 +19,7 @@ typedef struct gvc_output {
     uint64_t there; /**< bytes of an earlier run in the file, which are compared instead of written
                          as long as they are the same */
     bool overwrite;
+    bool known;    /**< begun by gvc_output_begin_known */
     bool standard; /**< the descriptor is that of standard output, which stays open */
     size_t used;
     char *buffer;
@@ -65,7 +66,8 @@ gvc_result gvc_output_write(void *output, const void *data, size_t size, gvc_err
  * the disk. Call it before gvc_output_end, which tells of a failure. */
 void gvc_output_sync(gvc_output *output);
 
-/** Writes what is left and gives the file its name; or removes it after any failure. */
+/** Writes what is left and gives the file its name; or removes it after any failure, but leaves it
+ * under a known temporary name. */
 gvc_result gvc_output_end(gvc_output *output, gvc_error *error);
 
 /** Removes what was written. Fine after a failed begin and after gvc_output_end, too. */
