@@ -80,6 +80,7 @@ static size_t count_good(const gvc_demux *demux, const gvc_io *io) {
         for (uint64_t f = 0; f < fragment->frame_count; f++) {
             bool both = true;
             for (unsigned kind = 0; kind < GVC_TRACK_KINDS; kind++) {
+                if (!demux->has_track[kind]) continue;
                 size_t index = gvc_demux_sample_of(demux, fragment, (gvc_track_kind)kind,
                                                    fragment->first_frame + f);
                 gvc_result result =
