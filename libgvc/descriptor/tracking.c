@@ -449,21 +449,52 @@ static gvc_result steady(workspace *w, const double *before, uint32_t *vertex, g
     return gvc_warp_pin(w->warp, mesh, moved, vertex, error);
 }
 
-/* Finds the tips: matched extrema first, the made up ones by geodesic consistency to those. */
-static gvc_result find_tips(gvc_tracked *t, const gvc_features *features, workspace *w, bool *kept,
-                            gvc_error *error) {
+/* True if the first `count` tips are as far from each other as they were: a hand is not taken for
+ * the other one. */
+static bool same_shape(const gvc_tracked *t, const workspace *w, size_t count) {
+    const gvc_routing *r = &w->routing;
+    size_t n = r->coordinates.dimension, channels = r->mesh->attribute_count;
+    for (size_t i = 0; i < count; i++)
+        for (size_t j = 0; j < count; j++) {
+            double now = r->mesh->attribute[w->tip[i] * channels + r->coordinates.first + j];
+            if (fabs(now - t->tip_point[i * n + j]) > shape_gate) return false;
+        }
+    return true;
+}
+
+/* The tips that are extrema: where the surface has gone, but for the renewal. A hand that touches a
+ * hip may then be pinned to the hip, which distances show; this frame's own extrema serve there.
+ * After a change of handles distances are others anyway. */
+static gvc_result place_extrema(const gvc_tracked *t, workspace *w, bool resume, bool *kept,
+                                gvc_error *error) {
+    gvc_routing *r = &w->routing;
+    size_t n = r->coordinates.dimension, count = t->matched_count;
+    for (size_t i = 0; i < count; i++) {
+        w->tip[i] = t->tip[i].vertex;
+        GVC_TRY(steady(w, t->tip_point + i * n, &w->tip[i], error));
+    }
+    GVC_TRY(gvc_coordinates_measure(r->mesh, &r->coordinates, 0, w->tip, count, error));
+    *kept = resume || same_shape(t, w, count);
+    if (*kept || !w->warp) return GVC_OK;
+    for (size_t i = 0; i < count; i++) w->tip[i] = t->tip[i].vertex;
+    GVC_TRY(gvc_coordinates_measure(r->mesh, &r->coordinates, 0, w->tip, count, error));
+    *kept = same_shape(t, w, count);
+    return GVC_OK;
+}
+
+/* Finds the tips: matched extrema first, the made up ones by geodesic consistency to those. Unless
+ * `resume`, they must be as far from each other as they were. */
+static gvc_result find_tips(gvc_tracked *t, const gvc_features *features, workspace *w, bool resume,
+                            bool *kept, gvc_error *error) {
     gvc_routing *r = &w->routing;
     size_t n = r->coordinates.dimension;
     for (size_t i = 0; w->warp && i < t->matched_count; i++)
         gvc_warp_point(w->warp, t->tip[i].position, t->tip[i].position);
     GVC_TRY(gvc_match_extrema(t->tip, t->matched_count, features, match_gate, w->tip, kept, error));
     if (!*kept) return GVC_OK;
-    for (size_t i = 0; i < t->matched_count; i++) {
-        t->tip[i] = features->extremum[w->tip[i]];
-        w->tip[i] = t->tip[i].vertex;
-        GVC_TRY(steady(w, t->tip_point + i * n, &w->tip[i], error));
-    }
-    GVC_TRY(gvc_coordinates_measure(r->mesh, &r->coordinates, 0, w->tip, t->matched_count, error));
+    for (size_t i = 0; i < t->matched_count; i++) t->tip[i] = features->extremum[w->tip[i]];
+    GVC_TRY(place_extrema(t, w, resume, kept, error));
+    if (!*kept) return GVC_OK;
     for (size_t i = t->matched_count; i < t->tip_count; i++) {
         const double *wanted = t->tip_point + i * n;
         GVC_TRY(gvc_consistent_vertex(r->mesh, &r->coordinates, i, wanted, w->tip, i, &w->tip[i],
@@ -473,20 +504,8 @@ static gvc_result find_tips(gvc_tracked *t, const gvc_features *features, worksp
         GVC_TRY(steady(w, wanted, &w->tip[i], error));
         GVC_TRY(gvc_coordinates_measure(r->mesh, &r->coordinates, i, &w->tip[i], 1, error));
     }
+    *kept = resume || same_shape(t, w, t->tip_count);
     return GVC_OK;
-}
-
-/* True if the tips are as far from each other as they were: a hand is not taken for the other one.
- */
-static bool same_shape(const gvc_tracked *t, const workspace *w) {
-    const gvc_routing *r = &w->routing;
-    size_t n = r->coordinates.dimension, channels = r->mesh->attribute_count;
-    for (size_t i = 0; i < t->tip_count; i++)
-        for (size_t j = 0; j < t->tip_count; j++) {
-            double now = r->mesh->attribute[w->tip[i] * channels + r->coordinates.first + j];
-            if (fabs(now - t->tip_point[i * n + j]) > shape_gate) return false;
-        }
-    return true;
 }
 
 /* Finds the root by geodesic consistency, near where the motion of the surface takes it. After a
@@ -663,8 +682,8 @@ static gvc_result track(gvc_tracked *t, const gvc_tracked *before, const gvc_fea
                         workspace *w, bool resume, bool *kept, gvc_error *error) {
     GVC_TRY(workspace_allocate(w, t, error));
     GVC_TRY(attach_coordinates(w, t, features, error));
-    GVC_TRY(find_tips(t, features, w, kept, error));
-    if (!*kept || !(*kept = resume || same_shape(t, w))) return GVC_OK;
+    GVC_TRY(find_tips(t, features, w, resume, kept, error));
+    if (!*kept) return GVC_OK;
     GVC_TRY(find_root(t, w, resume, kept, error));
     if (!*kept) return GVC_OK;
     const motion m = {&w->routing.coordinates, w->warp};
