@@ -278,7 +278,7 @@ gvc_result gvc_demux_read(const gvc_demux *demux, const gvc_io *io, gvc_track_ki
         gvc_box mdat = {.offset = sample->offset, .path = "mdat"};
         return gvc_at_frame(error,
                             gvc_box_fail(&mdat, error, GVC_ERROR_CORRUPT, "the file ends within %s",
-                                         kind == GVC_TRACK_SHAPE ? "a shape record" : "a picture"),
+                                         sample_name[kind]),
                             frame);
     }
     if (!gvc_grow((void **)&buffer->data, &buffer->capacity, sample->size, 1)) {

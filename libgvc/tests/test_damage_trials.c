@@ -275,8 +275,9 @@ static void try_changes(const original *o, size_t count, uint64_t seed) {
     }
     print_message(
         "%zu changes: %zu in the head, %zu in moof, %zu in pictures, %zu in shape records, "
-        "%zu in the index; %.1f frames lost by each\n",
-        count, of[0], of[1], of[2], of[3], of[4], (double)lost / (double)count);
+        "%zu in exact images, %zu in the index; %.1f frames lost by each\n",
+        count, of[GVC_PART_HEAD], of[GVC_PART_FRAGMENT], of[GVC_PART_GEOMETRY], of[GVC_PART_SHAPE],
+        of[GVC_PART_EXACT], of[GVC_PART_INDEX], (double)lost / (double)count);
     free(must);
 }
 
