@@ -113,9 +113,6 @@ static gvc_result check_samples(checker *c, const gvc_fragment_entry *fragment, 
     return GVC_OK;
 }
 
-static const gvc_track_kind in_file[GVC_TRACK_KINDS] = {GVC_TRACK_SHAPE, GVC_TRACK_GEOMETRY,
-                                                        GVC_TRACK_EXACT};
-
 /* Damaged places and fragments, both in the order of the file. */
 static gvc_result check_content(checker *c, gvc_buffer *buffer, gvc_error *error) {
     const gvc_demux *demux = &c->reader->demux;
@@ -128,8 +125,8 @@ static gvc_result check_content(checker *c, gvc_buffer *buffer, gvc_error *error
             GVC_TRY(tell(c, &defect, error));
         }
         for (unsigned k = 0; !last && k < GVC_TRACK_KINDS; k++) {
-            if (!demux->has_track[in_file[k]]) continue;
-            GVC_TRY(check_samples(c, &demux->fragment[i], in_file[k], buffer, error));
+            if (!demux->has_track[gvc_data_order[k]]) continue;
+            GVC_TRY(check_samples(c, &demux->fragment[i], gvc_data_order[k], buffer, error));
         }
     }
     return GVC_OK;

@@ -78,14 +78,8 @@ static gvc_result adopt_config(exr_encoder *e, const gvc_exr_frame *frame, uint6
         memcpy(e->options.unit, config.unit, sizeof e->options.unit);
         return GVC_OK;
     }
-    gvc_buffer first = {0}, other = {0};
-    gvc_config_write(&e->config, &first);
-    gvc_config_write(&config, &other);
-    bool failed = first.failed || other.failed;
-    bool same = first.size == other.size && memcmp(first.data, other.data, first.size) == 0;
-    gvc_buffer_free(&first);
-    gvc_buffer_free(&other);
-    if (failed) return gvc_fail_memory(error);
+    bool same;
+    GVC_TRY(gvc_config_equal(&e->config, &config, &same, error));
     if (same) return GVC_OK;
     return gvc_fail(error, GVC_ERROR_MESH,
                     "the frame comes from another file than the first: its configuration differs");

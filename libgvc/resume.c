@@ -239,26 +239,12 @@ static gvc_result differs(uint64_t frame, const char *what, gvc_error *error) {
                         (int64_t)frame);
 }
 
-static gvc_result compare_config(const gvc_config *config, const gvc_config *before,
-                                 gvc_error *error) {
-    gvc_buffer a = {0}, b = {0};
-    gvc_config_write(config, &a);
-    gvc_config_write(before, &b);
-    gvc_result result = GVC_OK;
-    if (a.failed || b.failed) {
-        result = gvc_fail_memory(error);
-    } else if (a.size != b.size || memcmp(a.data, b.data, a.size) != 0) {
-        result = differs(0, "the configuration", error);
-    }
-    gvc_buffer_free(&a);
-    gvc_buffer_free(&b);
-    return result;
-}
-
 static gvc_result begin_writer(const gvc_resume *resume, const gvc_config *config,
                                const gvc_sink *sink, gvc_writer **writer, gvc_error *error) {
     const gvc_demux *demux = &resume->file->demux;
-    GVC_TRY(compare_config(config, &demux->config, error));
+    bool same;
+    GVC_TRY(gvc_config_equal(config, &demux->config, &same, error));
+    if (!same) return differs(0, "the configuration", error);
     return gvc_writer_create(sink, config, demux->avc_config, demux->avc_config_size, writer,
                              error);
 }

@@ -134,6 +134,15 @@ bool cli_range(const char *text, uint64_t count, uint64_t *first, uint64_t *last
     return true;
 }
 
+int cli_choose_frames(const char *command, const char *text, uint64_t count, uint64_t *first,
+                      uint64_t *last) {
+    *first = 0;
+    *last = count - 1;
+    if (!text || cli_range(text, count, first, last)) return EXIT_DONE;
+    return cli_usage(command, "'%s' is not a range of frames 0-%llu", text,
+                     (unsigned long long)(count - 1));
+}
+
 /* ------------------------------------------------------------------------- signals and progress */
 
 static volatile sig_atomic_t interrupted;

@@ -55,6 +55,10 @@ bool cli_error_bound(const char *text, double *value, bool *relative);
 bool cli_rate(const char *text, uint32_t *num, uint32_t *den);
 /** "7", "3-9", "3-" over `count` frames; false if malformed or empty. */
 bool cli_range(const char *text, uint64_t count, uint64_t *first, uint64_t *last);
+/** The frames of a file of `count` > 0 that --frames asks for; NULL: all. EXIT_DONE, or EXIT_USAGE
+ * with a message. */
+int cli_choose_frames(const char *command, const char *text, uint64_t count, uint64_t *first,
+                      uint64_t *last);
 
 /** True once SIGINT or SIGTERM came. */
 bool cli_interrupted(void);

@@ -169,14 +169,8 @@ static int decode(decode_arguments *a, const gvc_reader *reader) {
         fprintf(stderr, "gvc decode: %s: the file holds no frames\n", a->input);
         return EXIT_DATA;
     }
-    a->first = 0;
-    a->last = count - 1;
-    if (a->frames && !cli_range(a->frames, count, &a->first, &a->last)) {
-        return cli_usage("decode", "'%s' is not a range of frames 0-%llu", a->frames,
-                         (unsigned long long)(count - 1));
-    }
-    int status = EXIT_DONE;
-    if (!a->no_output) {
+    int status = cli_choose_frames("decode", a->frames, count, &a->first, &a->last);
+    if (status == EXIT_DONE && !a->no_output) {
         status = cli_check_frames("decode", a->output, a->first, a->last, NULL, NULL, a->force);
     }
     if (status != EXIT_DONE) return status;

@@ -325,7 +325,10 @@ static gvc_result encode_whole(encode_arguments *a, frame_list *list, gvc_encode
         gvc_source source = frame_list_source(list);
         result = gvc_encode(&source, &sink, &a->options, report, error);
     }
-    if (result == GVC_OK) return gvc_output_end(&output, error);
+    if (result == GVC_OK) {
+        gvc_output_sync(&output);
+        return gvc_output_end(&output, error);
+    }
     gvc_output_discard(&output);
     return result;
 }

@@ -147,13 +147,11 @@ static int extract(extract_arguments *a) {
         fprintf(stderr, "gvc extract-exr: %s: the file holds no frames\n", a->input);
         return EXIT_DATA;
     }
-    a->last = info.frame_count - 1;
-    if (a->frames && !cli_range(a->frames, info.frame_count, &a->first, &a->last)) {
-        return cli_usage("extract-exr", "'%s' is not a range of frames 0-%llu", a->frames,
-                         (unsigned long long)(info.frame_count - 1));
+    int status = cli_choose_frames("extract-exr", a->frames, info.frame_count, &a->first, &a->last);
+    if (status == EXIT_DONE) {
+        status =
+            cli_check_frames("extract-exr", a->output, a->first, a->last, is_wanted, a, a->force);
     }
-    int status =
-        cli_check_frames("extract-exr", a->output, a->first, a->last, is_wanted, a, a->force);
     if (status != EXIT_DONE) return status;
     gvc_error_init(&error);
     if (gvc_decoder_create(a->reader, &decoder, &error) != GVC_OK) {

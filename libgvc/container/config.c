@@ -88,3 +88,15 @@ gvc_result gvc_config_read(gvc_cursor *cursor, gvc_config *config, gvc_error *er
     }
     return check_picture(config, error);
 }
+
+gvc_result gvc_config_equal(const gvc_config *a, const gvc_config *b, bool *equal,
+                            gvc_error *error) {
+    gvc_buffer one = {0}, other = {0};
+    gvc_config_write(a, &one);
+    gvc_config_write(b, &other);
+    bool failed = one.failed || other.failed;
+    *equal = !failed && one.size == other.size && memcmp(one.data, other.data, one.size) == 0;
+    gvc_buffer_free(&one);
+    gvc_buffer_free(&other);
+    return failed ? gvc_fail_memory(error) : GVC_OK;
+}

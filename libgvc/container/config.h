@@ -37,15 +37,19 @@ typedef struct gvc_config {
  *   offset  type   field
  *    0      u16    version_major      0
  *    2      u16    version_minor      1; a reader accepts greater ones
- *    4      u32    features           bit 0: exact track; a reader refuses bits that it does not
- * know 8      u32    picture_width      16 .. 16384, even 12      u32    plane_height       16 ..
- * 5460, even: at most 16384 rows in all 16      u32    image_size         16 .. 2049; charts may
- * not exceed it 20      u8     code_bits          10 21      u8     code_shift         6 22 u32
- * frame_rate_num     >= 1; timescale of movie and tracks 26      u32    frame_rate_den     >= 1;
- * duration of every sample 30      u64    declared_frames    0: unknown; times frame_rate_den below
- * 2^64 38      label  unit               at most 15 bytes .      label  encoder            at most
- * 63 bytes .      label  settings           at most 255 bytes .             bytes that later minor
- * versions may add, ignored
+ *    4      u32    features           bit 0: exact track; a reader refuses bits it does not know
+ *    8      u32    picture_width      16 .. 16384, even
+ *   12      u32    plane_height       16 .. 5460, even: at most 16384 rows in all
+ *   16      u32    image_size         16 .. 2049; charts may not exceed it
+ *   20      u8     code_bits          10
+ *   21      u8     code_shift         6
+ *   22      u32    frame_rate_num     >= 1; timescale of movie and tracks
+ *   26      u32    frame_rate_den     >= 1; duration of every sample
+ *   30      u64    declared_frames    0: unknown; times frame_rate_den below 2^64
+ *   38      label  unit               at most 15 bytes
+ *    .      label  encoder            at most 63 bytes
+ *    .      label  settings           at most 255 bytes
+ *    .             bytes that later minor versions may add, ignored
  *
  * A label is a length (u8) and that many bytes of UTF-8 without control characters. */
 
@@ -55,5 +59,8 @@ void gvc_config_write(const gvc_config *config, gvc_buffer *buffer);
 /** GVC_ERROR_UNSUPPORTED for a greater major version or an unknown feature bit; a greater minor
  * version and bytes after the known fields are accepted. */
 gvc_result gvc_config_read(gvc_cursor *cursor, gvc_config *config, gvc_error *error);
+/** Whether two configurations are written alike. */
+gvc_result gvc_config_equal(const gvc_config *a, const gvc_config *b, bool *equal,
+                            gvc_error *error);
 
 #endif

@@ -18,9 +18,12 @@
  *     mvhd
  *     trak  geometry         tkhd, edts/elst, mdia/minf/stbl/stsd/avc1 { avcC, colr, gvcC* }
  *     trak  shape            tkhd, tref/cdsc -> main, .../stsd/urim { uri  "urn:gvc:shape:0" }
- *     trak  exact            tkhd, .../stsd/urim { uri  "urn:gvc:exact:0", gvcC* if it is the main
- * } mvex                   mehd if the number of frames is known, trex for each track gcrc* last
- * child: CRC-32 from the file's first byte up to its own CRC field per group of frames: moof mfhd
+ *     trak  exact            tkhd, .../stsd/urim { uri  "urn:gvc:exact:0" }
+ *     mvex                   mehd if the number of frames is known, trex for each track
+ *     gcrc*                  last child: CRC-32 from the file's first byte up to its own CRC field
+ *   per group of frames:
+ *   moof
+ *     mfhd
  *     traf  for each of these tracks: tfhd (default-base-is-moof), tfdt, one trun,
  *           gcks*            CRC-32 (u32) of each sample, in the order of trun
  *     gcrc*                  last child: CRC-32 from moof's first byte up to its own CRC field
@@ -35,7 +38,8 @@
  *     mfro                   last
  *
  * Of geometry and exact track one may be missing. The main track is the geometry track if there is
- * one, else the exact track. There is an exact track if, and only if, gvcC says so.
+ * one, else the exact track, whose urim then holds gvcC. There is an exact track if, and only if,
+ * gvcC says so.
  *
  * gcrc, gcks, ggap, ghed and gdig are FullBoxes of version 0. The CRC-32 is that of gvc_crc32.
  * Every byte of these boxes is thus covered by a checksum or compared exactly; boxes not named here
@@ -124,6 +128,9 @@ typedef struct gvc_demux {
 gvc_result gvc_demux_open(const gvc_io *io, const gvc_read_options *options, gvc_demux *demux,
                           gvc_error *error);
 void gvc_demux_free(gvc_demux *demux);
+
+/** Order of the tracks in mdat; those that are missing are left out. */
+extern const gvc_track_kind gvc_data_order[GVC_TRACK_KINDS];
 
 /** The track that shape records describe and the index points at. */
 static inline gvc_track_kind gvc_demux_main(const gvc_demux *demux) {

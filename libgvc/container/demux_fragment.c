@@ -231,16 +231,15 @@ static gvc_result read_trafs(gvc_parser *parser, const gvc_box *moof,
     return GVC_OK;
 }
 
-/** Order of the tracks in mdat. */
-static const gvc_track_kind data_order[GVC_TRACK_KINDS] = {GVC_TRACK_SHAPE, GVC_TRACK_GEOMETRY,
-                                                           GVC_TRACK_EXACT};
+const gvc_track_kind gvc_data_order[GVC_TRACK_KINDS] = {GVC_TRACK_SHAPE, GVC_TRACK_GEOMETRY,
+                                                        GVC_TRACK_EXACT};
 
 /** The first track whose samples do not begin at `*next`, counted from moof, where those of the
  * track before end; NULL if there is none. Moves `*next` to their end. */
 static const track_run *in_order(const gvc_parser *parser, const track_run *run, uint64_t *next) {
     for (unsigned i = 0; i < GVC_TRACK_KINDS; i++) {
-        const track_run *of = &run[data_order[i]];
-        if (!parser->demux->has_track[data_order[i]]) continue;
+        const track_run *of = &run[gvc_data_order[i]];
+        if (!parser->demux->has_track[gvc_data_order[i]]) continue;
         if (of->data_offset != *next) return of;
         *next += of->byte_count;
     }
