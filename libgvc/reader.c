@@ -143,6 +143,21 @@ static uint64_t cut_frames(const gvc_reader *reader) {
     return cut;
 }
 
+/* 13.4: level n has four times the samples of level n - 1, in a picture and in a second. */
+static uint32_t level_of(const gvc_config *config) {
+    uint64_t rows = (3 * (uint64_t)config->plane_height + 15) / 16 * 16;
+    uint64_t picture = ((uint64_t)config->picture_width + 15) / 16 * 16 * rows;
+    uint64_t images = 128, samples = 65536;
+    for (uint32_t level = 1; level <= 5; level++, images *= 2, samples *= 4) {
+        /* picture * N / D <= 32 * samples, all below 2^64 */
+        if (config->image_size <= images + 1 && picture <= samples &&
+            picture * config->frame_rate_num <= 32 * samples * config->frame_rate_den) {
+            return level;
+        }
+    }
+    return 6;
+}
+
 void gvc_reader_info(const gvc_reader *reader, gvc_info *info) {
     const gvc_config *config = &reader->demux.config;
     *info = (gvc_info){
@@ -154,6 +169,7 @@ void gvc_reader_info(const gvc_reader *reader, gvc_info *info) {
         .image_size = config->image_size,
         .picture_width = config->picture_width,
         .picture_height = 3 * config->plane_height,
+        .level = level_of(config),
         .frame_rate_num = config->frame_rate_num,
         .frame_rate_den = config->frame_rate_den,
         .gop_count = reader->demux.fragment_count,

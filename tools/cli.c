@@ -30,7 +30,14 @@ int cli_fail(const char *command, const char *file, const gvc_error *error) {
     }
     if (box) fprintf(stderr, "%s: ", error->where);
     fprintf(stderr, "%s\n", error->message[0] ? error->message : gvc_result_string(error->code));
-    return error->code == GVC_ERROR_ARGUMENT ? EXIT_USAGE : EXIT_DATA;
+    switch (error->code) {
+    case GVC_ERROR_ARGUMENT:
+        return EXIT_USAGE;
+    case GVC_ERROR_UNSUPPORTED:
+        return EXIT_UNSUPPORTED;
+    default:
+        return EXIT_DATA;
+    }
 }
 
 int cli_usage(const char *command, const char *format, ...) {
@@ -64,6 +71,12 @@ uint64_t cli_frame_count(const gvc_info *info) {
     return info->declared_count > known ? info->declared_count : known;
 }
 
+void cli_tell_lost(const char *command, uint64_t lost, uint64_t count) {
+    if (lost == 0) return;
+    fprintf(stderr, "gvc %s: %llu of %llu frames were lost before the file was repaired\n", command,
+            (unsigned long long)lost, (unsigned long long)count);
+}
+
 /* ------------------------------------------------------------------------------------- numbers */
 
 bool cli_uint(const char *text, uint64_t least, uint64_t most, uint64_t *value) {
@@ -78,6 +91,19 @@ bool cli_uint(const char *text, uint64_t least, uint64_t most, uint64_t *value) 
 bool cli_double(const char *text, double *value) {
     const char *end = text + strlen(text);
     return gvc_parse_double(text, end, value) == end && isfinite(*value);
+}
+
+bool cli_size(const char *text, uint64_t *bytes) {
+    static const char units[] = "KMG";
+    const char *end = text + strlen(text);
+    const char *unit = end > text ? strchr(units, end[-1]) : NULL;
+    unsigned shift = unit && end > text ? 10 * (unsigned)(unit - units + 1) : 0;
+    int64_t number;
+    if (shift > 0) end--;
+    if (gvc_parse_int(text, end, &number) != end || number <= 0) return false;
+    if ((uint64_t)number > UINT64_MAX >> shift) return false;
+    *bytes = (uint64_t)number << shift;
+    return true;
 }
 
 bool cli_error_bound(const char *text, double *value, bool *relative) {

@@ -7,7 +7,12 @@
 
 #include <stdio.h>
 
-enum { EXIT_DONE = 0, EXIT_DATA = 1, EXIT_USAGE = 2 };
+enum {
+    EXIT_DONE = 0,
+    EXIT_DATA = 1,        /**< bad data, or reading or writing failed */
+    EXIT_USAGE = 2,       /**< wrong usage */
+    EXIT_UNSUPPORTED = 3, /**< a good file that needs a newer version or a feature not built in */
+};
 
 int cmd_encode(int argc, char **argv);
 int cmd_decode(int argc, char **argv);
@@ -19,8 +24,9 @@ int cmd_compare(int argc, char **argv);
 int cmd_synth(int argc, char **argv);
 int cmd_render(int argc, char **argv);
 
-/** "gvc COMMAND: <file> (frame n, byte m, box): message" to stderr; gives EXIT_DATA. `file` may be
- * NULL; error->where is used as the file name when it names one. */
+/** "gvc COMMAND: <file> (frame n, byte m, box): message" to stderr; gives EXIT_DATA, or
+ * what fits the code. `file` may be NULL; error->where is used as the file name when it names one.
+ */
 int cli_fail(const char *command, const char *file, const gvc_error *error);
 /** "gvc COMMAND: message" and a hint at --help to stderr; gives EXIT_USAGE. */
 int cli_usage(const char *command, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -45,10 +51,14 @@ int cli_check_frames(const char *command, const char *pattern, uint64_t first, u
 /** Frames a file should have: those it declares, or those it holds and says are lost if that is
  * more. */
 uint64_t cli_frame_count(const gvc_info *info);
+/** Tells that `lost` of `count` frames were lost before the file was repaired, if any were. */
+void cli_tell_lost(const char *command, uint64_t lost, uint64_t count);
 
 /** Whole-string numbers, independent of the locale; false if malformed or out of range. */
 bool cli_uint(const char *text, uint64_t least, uint64_t most, uint64_t *value);
 bool cli_double(const char *text, double *value);
+/** Bytes: "1000000", "512K", "64M", "2G" (powers of 1,024); false if malformed or too great. */
+bool cli_size(const char *text, uint64_t *bytes);
 /** "0.1%" (*relative = true, value 0.001) or a length "0.5" (*relative = false). Positive. */
 bool cli_error_bound(const char *text, double *value, bool *relative);
 /** "30", "29.97", "30000/1001". */

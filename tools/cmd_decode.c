@@ -18,15 +18,17 @@ static const char usage[] =
     "      --preview         of a lossless file, the preview instead of the exact frames\n"
     "      --keep-going      get all frames before and after damage; exit status 1 if any is lost\n"
     "      --no-output       decode only, write nothing (to time it)\n"
+    "      --max-memory SIZE refuse what needs more to decode: 512M, 2G (default 1G)\n"
     "  -q, --quiet           no progress\n";
 
-enum { OPT_FORMAT = 256, OPT_FRAMES, OPT_PREVIEW, OPT_KEEP_GOING, OPT_NO_OUTPUT };
+enum { OPT_FORMAT = 256, OPT_FRAMES, OPT_PREVIEW, OPT_KEEP_GOING, OPT_NO_OUTPUT, OPT_MAX_MEMORY };
 
 typedef struct decode_arguments {
     const char *input, *output, *frames;
     gvc_mesh_format format;
     bool force, preview, keep_going, no_output, quiet;
     uint64_t first, last;
+    uint64_t max_memory; /**< 0: the default */
 } decode_arguments;
 
 static bool parse_format(const char *text, gvc_mesh_format *format) {
@@ -53,6 +55,7 @@ static int parse(decode_arguments *a, int argc, char **argv) {
                                             {"preview", no_argument, NULL, OPT_PREVIEW},
                                             {"keep-going", no_argument, NULL, OPT_KEEP_GOING},
                                             {"no-output", no_argument, NULL, OPT_NO_OUTPUT},
+                                            {"max-memory", required_argument, NULL, OPT_MAX_MEMORY},
                                             {"quiet", no_argument, NULL, 'q'},
                                             {"help", no_argument, NULL, 'h'},
                                             {NULL, 0, NULL, 0}};
@@ -81,6 +84,11 @@ static int parse(decode_arguments *a, int argc, char **argv) {
             break;
         case OPT_KEEP_GOING:
             a->keep_going = true;
+            break;
+        case OPT_MAX_MEMORY:
+            if (!cli_size(optarg, &a->max_memory)) {
+                return cli_usage("decode", "'%s' is not a number of bytes", optarg);
+            }
             break;
         case OPT_NO_OUTPUT:
             a->no_output = true;
@@ -148,10 +156,7 @@ static int decode_frames(const decode_arguments *a, gvc_decoder *decoder) {
         cli_progress_show(&progress, frame - a->first + 1, a->last - a->first + 1);
     }
     cli_progress_end(&progress);
-    if (lost_before > 0) {
-        fprintf(stderr, "gvc decode: %llu of %llu frames were lost before the file was repaired\n",
-                (unsigned long long)lost_before, (unsigned long long)(a->last - a->first + 1));
-    }
+    cli_tell_lost("decode", lost_before, a->last - a->first + 1);
     if (lost > 0 && a->keep_going) {
         fprintf(stderr, "gvc decode: %llu of %llu frames lost\n", (unsigned long long)lost,
                 (unsigned long long)(a->last - a->first + 1));
@@ -198,6 +203,7 @@ int cmd_decode(int argc, char **argv) {
     gvc_read_options_init(&options);
     options.keep_going = arguments.keep_going;
     options.preview = arguments.preview;
+    if (arguments.max_memory) options.max_memory = arguments.max_memory;
     gvc_error_init(&error);
     if (gvc_reader_open_file(arguments.input, &options, &reader, &error) != GVC_OK) {
         return cli_fail("decode", arguments.input, &error);

@@ -79,12 +79,14 @@ static int parse(extract_arguments *a, int argc, char **argv) {
     return EXIT_DONE;
 }
 
-/* A frame that cannot be read is wanted, so that the failure is told. */
+/* A frame that cannot be read is wanted, so that the failure is told; one that was lost before the
+ * file was repaired is not, if there are others. */
 static bool is_wanted(void *user, uint64_t frame) {
     const extract_arguments *a = user;
     gvc_frame_info info;
-    return !a->keyframes || gvc_reader_frame_info(a->reader, frame, &info, NULL) != GVC_OK ||
-           info.keyframe;
+    gvc_result result = gvc_reader_frame_info(a->reader, frame, &info, NULL);
+    if (result == GVC_ERROR_LOST) return a->first == a->last;
+    return result != GVC_OK || !a->keyframes || info.keyframe;
 }
 
 static gvc_result write_file(const extract_arguments *a, uint64_t frame, const gvc_buffer *bytes,
@@ -118,6 +120,15 @@ static gvc_result extract_frame(const extract_arguments *a, gvc_decoder *decoder
     return result;
 }
 
+static uint64_t lost_frames(const extract_arguments *a) {
+    uint64_t lost = 0;
+    for (uint64_t frame = a->first; frame <= a->last; frame++) {
+        gvc_frame_info info;
+        if (gvc_reader_frame_info(a->reader, frame, &info, NULL) == GVC_ERROR_LOST) lost++;
+    }
+    return lost;
+}
+
 static int extract_frames(extract_arguments *a, gvc_decoder *decoder) {
     cli_progress progress;
     int status = EXIT_DONE;
@@ -125,7 +136,8 @@ static int extract_frames(extract_arguments *a, gvc_decoder *decoder) {
     for (uint64_t frame = a->first; status == EXIT_DONE && frame <= a->last; frame++) {
         gvc_error error;
         gvc_error_init(&error);
-        if (is_wanted(a, frame) && extract_frame(a, decoder, frame, &error) != GVC_OK) {
+        bool wanted = is_wanted(a, frame);
+        if (wanted && extract_frame(a, decoder, frame, &error) != GVC_OK) {
             status = cli_fail("extract-exr", a->input, &error);
         } else if (cli_interrupted()) {
             fprintf(stderr, "gvc extract-exr: interrupted after frame %llu\n",
@@ -135,6 +147,7 @@ static int extract_frames(extract_arguments *a, gvc_decoder *decoder) {
         cli_progress_show(&progress, frame - a->first + 1, a->last - a->first + 1);
     }
     cli_progress_end(&progress);
+    cli_tell_lost("extract-exr", lost_frames(a), a->last - a->first + 1);
     return status;
 }
 
@@ -143,11 +156,12 @@ static int extract(extract_arguments *a) {
     gvc_error error;
     gvc_decoder *decoder = NULL;
     gvc_reader_info(a->reader, &info);
-    if (info.frame_count == 0) {
+    uint64_t count = cli_frame_count(&info);
+    if (count == 0) {
         fprintf(stderr, "gvc extract-exr: %s: the file holds no frames\n", a->input);
         return EXIT_DATA;
     }
-    int status = cli_choose_frames("extract-exr", a->frames, info.frame_count, &a->first, &a->last);
+    int status = cli_choose_frames("extract-exr", a->frames, count, &a->first, &a->last);
     if (status == EXIT_DONE) {
         status =
             cli_check_frames("extract-exr", a->output, a->first, a->last, is_wanted, a, a->force);

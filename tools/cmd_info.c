@@ -88,7 +88,7 @@ static void print_text(const info_arguments *a, const gvc_info *info) {
     if (has_video(info)) {
         printf(" (pictures of %u x %u)", info->picture_width, info->picture_height);
     }
-    printf("\nprofile      %s\n", profile(info));
+    printf("\nprofile      %s, level %u\n", profile(info), info->level);
     print_track("H.264", info->geometry_bytes, info);
     print_track("exact", info->exact_bytes, info);
     print_track("shape", info->shape_bytes, info);
@@ -110,12 +110,12 @@ static void print_json(const info_arguments *a, const gvc_info *info) {
     printf(",\n  \"frames\": %" PRIu64 ",\n  \"declared_frames\": %" PRIu64
            ",\n  \"bytes\": %" PRIu64
            ",\n  \"image_size\": %u,\n  \"picture\": [%u, %u],\n  \"frame_rate\": [%u, %u],\n"
-           "  \"profile\": \"%s\",\n  \"track_bytes\": {\"h264\": %" PRIu64 ", \"exact\": %" PRIu64
-           ", \"shape\": %" PRIu64 "},\n  \"groups\": %" PRIu64 ",\n  \"damaged_places\": %" PRIu64
-           ",\n  \"unit\": ",
+           "  \"profile\": \"%s\",\n  \"level\": %u,\n  \"track_bytes\": {\"h264\": %" PRIu64
+           ", \"exact\": %" PRIu64 ", \"shape\": %" PRIu64 "},\n  \"groups\": %" PRIu64
+           ",\n  \"damaged_places\": %" PRIu64 ",\n  \"unit\": ",
            info->frame_count, info->declared_count, info->byte_count, info->image_size,
            info->picture_width, info->picture_height, info->frame_rate_num, info->frame_rate_den,
-           profile(info), info->geometry_bytes, info->exact_bytes, info->shape_bytes,
+           profile(info), info->level, info->geometry_bytes, info->exact_bytes, info->shape_bytes,
            info->gop_count, info->damage_count);
     cli_json_string(stdout, info->unit);
     printf(",\n  \"lost_frames\": %" PRIu64, info->lost_count);

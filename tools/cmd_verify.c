@@ -22,13 +22,15 @@ static const char usage[] =
     "\n"
     "      --against         the arguments after the file are the frames it was made from\n"
     "      --any-order       take frames as given: no check of numbers\n"
+    "      --max-memory SIZE refuse what needs more to decode: 512M, 2G (default 1G)\n"
     "  -q, --quiet           say nothing of a good file\n";
 
-enum { OPT_AGAINST = 256, OPT_ANY_ORDER };
+enum { OPT_AGAINST = 256, OPT_ANY_ORDER, OPT_MAX_MEMORY };
 
 typedef struct verify_arguments {
     const char *input;
     bool against, any_order, quiet;
+    uint64_t max_memory; /**< 0: the default */
 } verify_arguments;
 
 /* Errors so far, as fractions of each frame's diagonal. */
@@ -40,6 +42,7 @@ typedef struct verify_totals {
 static int parse(verify_arguments *a, int argc, char **argv) {
     static const struct option options[] = {{"against", no_argument, NULL, OPT_AGAINST},
                                             {"any-order", no_argument, NULL, OPT_ANY_ORDER},
+                                            {"max-memory", required_argument, NULL, OPT_MAX_MEMORY},
                                             {"quiet", no_argument, NULL, 'q'},
                                             {"help", no_argument, NULL, 'h'},
                                             {NULL, 0, NULL, 0}};
@@ -51,6 +54,11 @@ static int parse(verify_arguments *a, int argc, char **argv) {
             break;
         case OPT_ANY_ORDER:
             a->any_order = true;
+            break;
+        case OPT_MAX_MEMORY:
+            if (!cli_size(optarg, &a->max_memory)) {
+                return cli_usage("verify", "'%s' is not a number of bytes", optarg);
+            }
             break;
         case 'q':
             a->quiet = true;
@@ -258,11 +266,13 @@ static int verify_file(const verify_arguments *a, const gvc_source *source) {
         gvc_read_options_init(&options);
         options.keep_going = true;
         options.preview = preview;
+        if (a->max_memory) options.max_memory = a->max_memory;
         if (gvc_reader_open_file(a->input, &options, &reader, &error) != GVC_OK) {
             return cli_fail("verify", a->input, &error);
         }
         gvc_reader_info(reader, &info);
-        if (verify(a, reader, preview, source) != EXIT_DONE) status = EXIT_DATA;
+        int found = verify(a, reader, preview, source);
+        if (found != EXIT_DONE) status = found;
         more = !preview && info.preview;
         gvc_reader_close(&reader);
     }

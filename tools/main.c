@@ -26,9 +26,9 @@ static void print_usage(FILE *file) {
     for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
         fprintf(file, "  %-11s %s\n", commands[i].name, commands[i].summary);
     }
-    fprintf(
-        file,
-        "\n'gvc COMMAND --help' tells more. Exit status: 0 done, 1 bad data or I/O, 2 usage.\n");
+    fprintf(file,
+            "\n'gvc COMMAND --help' tells more. Exit status: 0 done, 1 bad data or I/O, 2 usage,\n"
+            "3 a file that needs a newer gvc.\n");
 }
 
 static int run(int argc, char **argv) {

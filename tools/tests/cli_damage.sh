@@ -86,6 +86,13 @@ same r/2.off good/2.off
 run 1 "$gvc" decode -q good.gvc --frames 1 -o r1.off
 says 'frame 1' 'lost before'
 absent r1.off
+run 0 "$gvc" extract-exr -q good.gvc -o 'e/%d.exr'
+says '1 of 3 frames were lost'
+present e/0.exr e/2.exr
+absent e/1.exr
+run 1 "$gvc" extract-exr -q good.gvc --frames 1 -o e1.exr
+says 'frame 1' 'lost before'
+absent e1.exr
 run 1 "$gvc" repair bad.gvc -o good.gvc
 says good.gvc -f
 run 1 "$gvc" repair missing.gvc -o x.gvc

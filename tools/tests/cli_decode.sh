@@ -59,4 +59,14 @@ run 1 "$gvc" decode -q capture -o 'x/%d.obj'
 says capture
 run 1 "$gvc" decode -q capture/000.off -o 'x/%d.obj'
 says 'not a .gvc file'
+
+# A limit of memory: what needs more is refused before it is taken.
+run 1 "$gvc" decode -q --max-memory 4K a.gvc -o 'm/%d.off'
+says a.gvc 'the limit is 4096'
+absent m/0.off
+run 1 "$gvc" verify --max-memory 4K a.gvc
+says a.gvc 'the limit is 4096'
+run 0 "$gvc" decode -q --max-memory 1G a.gvc -o 'm/%d.off'
+run 2 "$gvc" decode -q --max-memory 1Q a.gvc -o 'n/%d.off'
+says 1Q
 finish

@@ -295,6 +295,7 @@ typedef struct gvc_info {
     uint64_t byte_count;
     uint32_t image_size;
     uint32_t picture_width, picture_height;
+    uint32_t level; /**< 1..6: how large pictures are, and how many a second (gvc.md, 13.4) */
     uint32_t frame_rate_num, frame_rate_den;
     uint64_t gop_count;
     uint64_t damage_count; /**< damaged places found while opening with keep_going */
