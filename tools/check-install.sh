@@ -9,6 +9,7 @@ work=$PWD/build/example
 rm -rf "$prefix" "$work"
 cmake --install build/dev --prefix "$prefix" >/dev/null
 library=$(dirname "$(find "$prefix" -name 'libgvc.so')")
+test -s "$prefix/share/man/man1/gvc.1" && test -s "$prefix/share/man/man5/gvc.5"
 export LD_LIBRARY_PATH="$library"
 
 cmake -S tools/example -B "$work/cmake" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" >/dev/null

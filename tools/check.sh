@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 step() { printf '\n== %s\n' "$*"; }
 
 step "dependencies"
-tools/install-dependencies.sh clang llvm libclang-rt-14-dev clang-format
+tools/install-dependencies.sh clang llvm libclang-rt-14-dev clang-format doxygen mandoc
 
 step "source format"
 find libgvc tools fuzz -name '*.[ch]' -print0 | xargs -0 clang-format --dry-run --Werror
@@ -16,6 +16,8 @@ find libgvc tools fuzz -name '*.[ch]' -print0 | xargs -0 clang-format --dry-run 
 step "gcc: build, all warnings are errors"
 cmake --preset dev -DCMAKE_C_COMPILER=gcc -DCMAKE_CXX_COMPILER=g++ >/dev/null
 cmake --build --preset dev
+step "documentation of the interface"
+cmake --build --preset dev --target doc
 step "gcc: tests"
 ctest --preset dev -j"$(nproc)"
 

@@ -27,14 +27,14 @@ extern "C" {
 #if defined(GVC_STATIC)
 #define GVC_API
 #else
-#define GVC_API __attribute__((visibility("default")))
+#define GVC_API __attribute__((visibility("default"))) /**< exported from the shared library */
 #endif
-#define GVC_NODISCARD __attribute__((warn_unused_result))
+#define GVC_NODISCARD __attribute__((warn_unused_result)) /**< the result must be looked at */
 
 /** Version of the library (not of the file format, which gvc_info.format_version tells). */
 #define GVC_VERSION_MAJOR 0
-#define GVC_VERSION_MINOR 1
-#define GVC_VERSION_PATCH 0
+#define GVC_VERSION_MINOR 1 /**< see GVC_VERSION_MAJOR */
+#define GVC_VERSION_PATCH 0 /**< see GVC_VERSION_MAJOR */
 
 /** "major.minor.patch" of the library in use. */
 GVC_API const char *gvc_version(void);
@@ -62,18 +62,19 @@ typedef enum gvc_result {
 /** Short English name of a result, never NULL. */
 GVC_API const char *gvc_result_string(gvc_result result);
 
-#define GVC_NO_FRAME (-1)
-#define GVC_NO_OFFSET UINT64_MAX
+#define GVC_NO_FRAME (-1)        /**< gvc_error.frame: not about one frame */
+#define GVC_NO_OFFSET UINT64_MAX /**< gvc_error.offset: not about one place in a file */
 
 /** What went wrong and where. Plain data; may be copied. Always initialise with gvc_error_init. */
 typedef struct gvc_error {
-    gvc_result code;
+    gvc_result code; /**< kind of the failure */
     int64_t frame;   /**< zero-based frame, or GVC_NO_FRAME */
     uint64_t offset; /**< byte offset in the file being read, or GVC_NO_OFFSET */
     char where[96]; /**< box path in a .gvc file ("moof/traf/trun"), or a file name; may be empty */
     char message[320]; /**< one sentence without a final full stop */
 } gvc_error;
 
+/** GVC_OK, no frame, no offset, empty texts. */
 GVC_API void gvc_error_init(gvc_error *error);
 
 /* -------------------------------------------------------------------------------------- meshes */
@@ -88,13 +89,16 @@ GVC_API GVC_NODISCARD gvc_result gvc_mesh_create(const double *positions, size_t
                                                  gvc_mesh **mesh, gvc_error *error);
 /** Frees the mesh and nulls the caller's pointer. NULL and pointer to NULL are fine. */
 GVC_API void gvc_mesh_destroy(gvc_mesh **mesh);
+/** V. */
 GVC_API size_t gvc_mesh_vertex_count(const gvc_mesh *mesh);
+/** F. */
 GVC_API size_t gvc_mesh_face_count(const gvc_mesh *mesh);
 /** 3 * V coordinates, valid as long as the mesh. Decoded meshes hold exact float32 values. */
 GVC_API const double *gvc_mesh_positions(const gvc_mesh *mesh);
 /** 3 * F vertex indices, counter-clockwise seen from outside, valid as long as the mesh. */
 GVC_API const uint32_t *gvc_mesh_faces(const gvc_mesh *mesh);
 
+/** File formats of meshes. */
 typedef enum gvc_mesh_format {
     GVC_MESH_AUTO = 0, /**< by file name when writing, by content and name when reading */
     GVC_MESH_OFF = 1,
@@ -121,28 +125,33 @@ GVC_API GVC_NODISCARD gvc_result gvc_mesh_write_file(const gvc_mesh *mesh, const
 
 /** Topology of a mesh. Counts are of the mesh as given. */
 typedef struct gvc_topology {
-    uint64_t vertex_count, face_count, edge_count;
-    uint64_t component_count;     /**< edge-connected components of faces */
-    uint64_t boundary_edge_count; /**< edges with one face */
-    uint64_t boundary_loop_count;
-    uint64_t nonmanifold_edge_count;   /**< edges with more than two faces */
-    uint64_t nonmanifold_vertex_count; /**< vertices whose faces form more than one fan */
-    uint64_t misoriented_edge_count;   /**< edges whose two faces run the same way */
-    uint64_t degenerate_face_count;    /**< faces that repeat a vertex */
-    uint64_t duplicate_face_count;     /**< faces with the same three vertices as an earlier one */
-    uint64_t unreferenced_vertex_count;
+    uint64_t vertex_count;              /**< V */
+    uint64_t face_count;                /**< F */
+    uint64_t edge_count;                /**< pairs of vertices that share a face's side */
+    uint64_t component_count;           /**< edge-connected components of faces */
+    uint64_t boundary_edge_count;       /**< edges with one face */
+    uint64_t boundary_loop_count;       /**< closed runs of such edges */
+    uint64_t nonmanifold_edge_count;    /**< edges with more than two faces */
+    uint64_t nonmanifold_vertex_count;  /**< vertices whose faces form more than one fan */
+    uint64_t misoriented_edge_count;    /**< edges whose two faces run the same way */
+    uint64_t degenerate_face_count;     /**< faces that repeat a vertex */
+    uint64_t duplicate_face_count;      /**< faces with the same three vertices as an earlier one */
+    uint64_t unreferenced_vertex_count; /**< vertices of no face */
     int64_t genus;        /**< sum over components if closed, manifold and oriented, else -1 */
     bool closed_manifold; /**< closed, manifold and oriented */
 } gvc_topology;
 
+/** Counts what `topology` has. Any mesh will do; fails only for lack of memory. */
 GVC_API GVC_NODISCARD gvc_result gvc_mesh_topology(const gvc_mesh *mesh, gvc_topology *topology,
                                                    gvc_error *error);
 
 /** Distance between two surfaces, in the unit of the meshes. Each direction takes area-weighted
  *  samples of one surface, and all its vertices for the maximum, to the other surface. */
 typedef struct gvc_distance {
-    double mean[2], rms[2], maximum[2]; /**< [0] first to second, [1] second to first */
-    double diagonal;                    /**< of the first mesh's bounding box */
+    double mean[2];    /**< mean distance; [0] first to second, [1] second to first */
+    double rms[2];     /**< root of the mean square, likewise */
+    double maximum[2]; /**< one-sided Hausdorff distance, likewise */
+    double diagonal;   /**< of the first mesh's bounding box */
 } gvc_distance;
 
 /** `samples` per direction (0: 20,000). Deterministic. */
@@ -157,8 +166,8 @@ typedef struct gvc_reader gvc_reader; /**< an opened file: parsed, immutable, sh
 /** Where frames come from. The encoder reads frames more than once and from several threads at a
  *  time, so `read` must be thread-safe and give the same mesh each time. */
 typedef struct gvc_source {
-    void *user;
-    uint64_t frame_count;
+    void *user;           /**< passed to the functions */
+    uint64_t frame_count; /**< at least 1 */
     /** Gives a new mesh, which the encoder destroys. */
     gvc_result (*read)(void *user, uint64_t frame, gvc_mesh **mesh, gvc_error *error);
     /** Name of a frame for messages and for the file's record of sources; may be NULL. */
@@ -167,14 +176,20 @@ typedef struct gvc_source {
 
 /** Where the file goes: bytes strictly in order, never rewritten. */
 typedef struct gvc_sink {
-    void *user;
+    void *user; /**< passed to write */
+    /** Takes all `size` bytes or fails, which ends the encode. */
     gvc_result (*write)(void *user, const void *data, size_t size, gvc_error *error);
 } gvc_sink;
 
-typedef enum gvc_stage { GVC_STAGE_SCAN = 0, GVC_STAGE_ENCODE = 1 } gvc_stage;
+/** What progress is told of. */
+typedef enum gvc_stage {
+    GVC_STAGE_SCAN = 0,  /**< all frames are read once and checked */
+    GVC_STAGE_ENCODE = 1 /**< analysis and coding */
+} gvc_stage;
 
+/** How to encode. Start from gvc_encode_options_init. */
 typedef struct gvc_encode_options {
-    size_t struct_size;
+    size_t struct_size; /**< set by gvc_encode_options_init */
     uint32_t
         image_size; /**< samples per side of a geometry image, 16..2049; 0: chosen for max_rms */
     double max_rms; /**< RMS error to hold in every group of frames, as a fraction of the frame's
@@ -187,9 +202,10 @@ typedef struct gvc_encode_options {
     bool best_effort;  /**< warn instead of failing where the error asked for is out of reach */
     uint32_t gop;      /**< frames per group (random access unit), and from keyframe to keyframe;
                             default 60 */
-    uint32_t frame_rate_num, frame_rate_den; /**< default 30/1 */
-    uint32_t threads;                        /**< 0: one per processor. Never changes the output */
-    char unit[16];                           /**< "m", "mm", or empty for unknown; recorded only */
+    uint32_t frame_rate_num; /**< default 30 */
+    uint32_t frame_rate_den; /**< default 1 */
+    uint32_t threads;        /**< 0: one per processor. Never changes the output */
+    char unit[16];           /**< "m", "mm", or empty for unknown; recorded only */
     bool weld; /**< weld exactly equal positions where that gives a manifold; default true */
     double persistence; /**< least persistence of an extremum, of the range of mu; default 0.2 */
     double curvature_weight; /**< exponent of the curvature metric; default 0.25; 0: none */
@@ -211,15 +227,19 @@ typedef struct gvc_encode_options {
     /** State between two groups, some hundred kilobytes; the last one given lets gvc_encode_resume
      *  begin there. Good only for the same build on the same machine. May be NULL. */
     gvc_result (*checkpoint)(void *user, const void *data, size_t size, gvc_error *error);
-    void *user;
+    void *user; /**< passed to the callbacks */
 } gvc_encode_options;
 
+/** The defaults named in the struct. */
 GVC_API void gvc_encode_options_init(gvc_encode_options *options);
 
 /** What an encode did. */
 typedef struct gvc_encode_report {
-    uint64_t frame_count, segment_count, gop_count, byte_count;
-    uint32_t image_size;
+    uint64_t frame_count;   /**< frames coded */
+    uint64_t segment_count; /**< runs of frames with one cut graph */
+    uint64_t gop_count;     /**< groups of frames, random access units */
+    uint64_t byte_count;    /**< of the file */
+    uint32_t image_size;    /**< samples a side */
     double worst_rms; /**< greatest measured RMS of a group, fraction of the diagonal; of a lossless
                            file, that of the exact codes */
     double preview_rms; /**< of the preview; 0 if there is none */
@@ -238,7 +258,7 @@ typedef struct gvc_partial {
     const char *journal;    /**< its lines, each with a newline */
     const void *checkpoint; /**< its last state; NULL: frames before are analysed again, which gives
                                  the same bytes, but takes most of the time of an encode */
-    size_t checkpoint_size;
+    size_t checkpoint_size; /**< bytes */
 } gvc_partial;
 
 /** Goes on with an encode that ended early; source and options must be the same. The sink gets the
@@ -257,13 +277,15 @@ typedef struct gvc_decoder gvc_decoder; /**< decodes frames of one reader; one t
 /** Random-access input. `read` fills exactly `size` bytes at `offset` or fails. Must be thread-safe
  *  if the reader is shared. */
 typedef struct gvc_io {
-    void *user;
-    uint64_t size;
+    void *user;    /**< passed to read */
+    uint64_t size; /**< of the file, in bytes */
+    /** Fills all of `data` or fails. */
     gvc_result (*read)(void *user, uint64_t offset, void *data, size_t size, gvc_error *error);
 } gvc_io;
 
+/** Limits, and what to decode. Start from gvc_read_options_init. */
 typedef struct gvc_read_options {
-    size_t struct_size;
+    size_t struct_size;      /**< set by gvc_read_options_init */
     uint64_t max_memory;     /**< bytes any one decode may hold; default 1 GiB */
     uint32_t max_image_size; /**< samples per side; default 2049 */
     uint64_t max_frames;     /**< default 10,000,000 */
@@ -272,6 +294,7 @@ typedef struct gvc_read_options {
                           instead of the exact codes; a file that is lossy is decoded as ever */
 } gvc_read_options;
 
+/** The defaults named in the struct. */
 GVC_API void gvc_read_options_init(gvc_read_options *options);
 
 /** `options` may be NULL for defaults. The file stays open until gvc_reader_close. */
@@ -282,52 +305,64 @@ GVC_API GVC_NODISCARD gvc_result gvc_reader_open_file(const char *path,
 GVC_API GVC_NODISCARD gvc_result gvc_reader_open_memory(const void *data, size_t size,
                                                         const gvc_read_options *options,
                                                         gvc_reader **reader, gvc_error *error);
+/** `io` is copied; what it refers to must outlive the reader. */
 GVC_API GVC_NODISCARD gvc_result gvc_reader_open_io(const gvc_io *io,
                                                     const gvc_read_options *options,
                                                     gvc_reader **reader, gvc_error *error);
 /** Frees the reader and nulls the pointer. Decoders made from it must be closed before. */
 GVC_API void gvc_reader_close(gvc_reader **reader);
 
+/** Facts about a file. */
 typedef struct gvc_info {
-    uint16_t format_version_major, format_version_minor;
-    uint64_t frame_count;    /**< frames present (whole) */
-    uint64_t declared_count; /**< frames the file says it should have; 0 if unknown */
-    uint64_t byte_count;
-    uint32_t image_size;
-    uint32_t picture_width, picture_height;
+    uint16_t format_version_major; /**< of the format (gvc.md, 5) */
+    uint16_t format_version_minor; /**< of the format */
+    uint64_t frame_count;          /**< frames present (whole) */
+    uint64_t declared_count;       /**< frames the file says it should have; 0 if unknown */
+    uint64_t byte_count;           /**< of the file */
+    uint32_t image_size;           /**< greatest number of samples a side of a chart */
+    uint32_t picture_width;        /**< samples */
+    uint32_t picture_height;       /**< rows: three planes */
     uint32_t level; /**< 1..6: how large pictures are, and how many a second (gvc.md, 13.4) */
-    uint32_t frame_rate_num, frame_rate_den;
-    uint64_t gop_count;
-    uint64_t damage_count; /**< damaged places found while opening with keep_going */
-    bool lossless;         /**< there is an exact track: frames are decoded to its 16-bit codes */
-    bool preview;          /**< a lossless file that has H.264 pictures, too */
-    uint64_t geometry_bytes, shape_bytes, exact_bytes; /**< of all samples of a track */
-    uint64_t lost_count; /**< frames that the file says were lost before it was repaired */
-    uint8_t digest[32];  /**< SHA-256 at the end of the file, of all bytes before it */
-    bool has_digest;     /**< false only for a damaged or cut-off file */
-    char unit[16];
-    char encoder[64]; /**< program that wrote the file */
+    uint32_t frame_rate_num; /**< frames per second: frame_rate_num / frame_rate_den */
+    uint32_t frame_rate_den; /**< at least 1 */
+    uint64_t gop_count;      /**< groups of frames present */
+    uint64_t damage_count;   /**< damaged places found while opening with keep_going */
+    bool lossless;           /**< there is an exact track: frames are decoded to its 16-bit codes */
+    bool preview;            /**< a lossless file that has H.264 pictures, too */
+    uint64_t geometry_bytes; /**< of all pictures */
+    uint64_t shape_bytes;    /**< of all shape records */
+    uint64_t exact_bytes;    /**< of all exact images */
+    uint64_t lost_count;     /**< frames that the file says were lost before it was repaired */
+    uint8_t digest[32];      /**< SHA-256 at the end of the file, of all bytes before it */
+    bool has_digest;         /**< false only for a damaged or cut-off file */
+    char unit[16];           /**< of the coordinates; empty if not stated */
+    char encoder[64];        /**< program that wrote the file */
 } gvc_info;
 
+/** Facts about the file as it was opened. */
 GVC_API void gvc_reader_info(const gvc_reader *reader, gvc_info *info);
 
 /** Facts about one frame, without decoding its picture. */
 typedef struct gvc_frame_info {
-    uint64_t byte_count; /**< of all its samples */
-    uint64_t segment;    /**< index of its segment */
-    uint32_t chart_count;
+    uint64_t byte_count;     /**< of all its samples */
+    uint64_t segment;        /**< index of its segment */
+    uint32_t chart_count;    /**< at least 1 */
     uint32_t genus;          /**< summed over charts */
     uint32_t extremum_count; /**< nodes of the cut graph that are extrema */
-    uint32_t node_count, edge_count;
-    bool keyframe;   /**< starts a group of frames */
+    uint32_t node_count;     /**< of the cut graphs of all charts */
+    uint32_t edge_count;     /**< of the cut graphs of all charts */
+    bool keyframe;           /**< starts a group of frames */
     char source[64]; /**< name of the original frame; the encoder here names the first of a group */
     uint8_t digest[8]; /**< of the decoded codes and faces; with read_options.preview those of the
                             preview, if there is one */
 } gvc_frame_info;
 
+/** GVC_ERROR_LOST for a frame that a repaired file says is lost, GVC_ERROR_ARGUMENT for one beyond
+ * the end, GVC_ERROR_CORRUPT or _TRUNCATED for one that is damaged. */
 GVC_API GVC_NODISCARD gvc_result gvc_reader_frame_info(const gvc_reader *reader, uint64_t frame,
                                                        gvc_frame_info *info, gvc_error *error);
 
+/** A decoder of all frames of `reader`, which must outlive it. */
 GVC_API GVC_NODISCARD gvc_result gvc_decoder_create(const gvc_reader *reader, gvc_decoder **decoder,
                                                     gvc_error *error);
 /** Frees the decoder and nulls the pointer. */
@@ -341,6 +376,7 @@ GVC_API GVC_NODISCARD gvc_result gvc_decoder_frame(gvc_decoder *decoder, uint64_
 
 /* ------------------------------------------------------------------------ damage and its repair */
 
+/** Part of a file that a defect is in. */
 typedef enum gvc_part {
     GVC_PART_HEAD = 0,     /**< ftyp or moov */
     GVC_PART_FRAGMENT = 1, /**< moof, or the header of mdat */
@@ -353,15 +389,17 @@ typedef enum gvc_part {
 
 /** A damaged place of a file. */
 typedef struct gvc_defect {
-    gvc_part part;
-    uint64_t offset, size; /**< bytes of the file; size 0 if something is missing there */
-    /** Fragments it lies in, numbered as the file does, from 1; 0 if none. Of a run of lost
-     * fragments that reaches the end of the file the last is not known: 0. */
-    uint32_t first_fragment, last_fragment;
+    gvc_part part;   /**< where it is */
+    uint64_t offset; /**< from the start of the file, bytes */
+    uint64_t size;   /**< bytes; 0 if something is missing there */
+    uint32_t
+        first_fragment;     /**< fragments it lies in, numbered as the file does, from 1; 0: none */
+    uint32_t last_fragment; /**< 0: not known, of a run of lost fragments that reaches the end */
     /** Frames it is part of. Of GVC_PART_FRAGMENT and GVC_PART_INDEX, those that are lost with it.
      * Of a picture or record others may depend on it; decoding tells. */
-    uint64_t first_frame, frame_count;
-    gvc_error error; /**< what is wrong */
+    uint64_t first_frame;
+    uint64_t frame_count; /**< how many, from first_frame on */
+    gvc_error error;      /**< what is wrong */
 } gvc_defect;
 
 /** Looks at every byte of a file without decoding it: structure, checksums of all samples, digest
@@ -373,6 +411,7 @@ GVC_API GVC_NODISCARD gvc_result gvc_reader_check(const gvc_reader *reader,
                                                                 const gvc_defect *defect),
                                                   void *user, gvc_error *error);
 
+/** What a repair did. */
 typedef struct gvc_repair_report {
     uint64_t frame_count;  /**< frames saved */
     uint64_t lost_count;   /**< frames lost, those lost before among them */
