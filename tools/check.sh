@@ -28,8 +28,9 @@ step "clang, sanitizers: tests"
 ctest --preset asan-ubsan -j"$(nproc)"
 
 step "decoder alone"
-cmake -S . -B build/decoder -G Ninja -DGVC_ENCODER=OFF -DGVC_TOOLS=OFF -DGVC_WERROR=ON >/dev/null
+cmake -S . -B build/decoder -G Ninja -DGVC_ENCODER=OFF -DGVC_TESTS=ON -DGVC_WERROR=ON >/dev/null
 cmake --build build/decoder
+ctest --test-dir build/decoder -j"$(nproc)" --output-on-failure
 
 step "example against the installed package"
 tools/check-install.sh
