@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: MIT
+"""The list of vectors: bytes of each and what the manifest says of it."""
+import hashlib
+import json
+
+
+class Suite:
+    """Collects vectors. Names are folder/name; the folder is the category: core, extended or invalid."""
+
+    def __init__(self):
+        self.files, self.entries = {}, []
+
+    def _add(self, name, data, about, clauses, features, rest):
+        if name in self.files:
+            raise ValueError("two vectors are called " + name)
+        category = name.split("/")[0]
+        self.files[name] = data
+        self.entries.append({"name": name, "file": name + ".gvc", "sha256": hashlib.sha256(data).hexdigest(),
+                             "category": category, "features": sorted(set(features)), "clauses": list(clauses),
+                             "about": about, **rest})
+
+    def good(self, name, movie, about, clauses, features):
+        """A file that keeps all rules: frames, previews and what gaps state come from the movie."""
+        from .movie import Gap
+        missing = [f for p in movie.parts if isinstance(p, Gap) for f in range(p.first_frame, p.first_frame + p.count)]
+        rest = {"frames": [{"frame": f, "digest": r.digest.hex(), "mesh": r.mesh} for f, r in sorted(movie.frames.items())]}
+        previews = [{"frame": f, "digest": r.preview[0].hex(), "mesh": r.preview[1]}
+                    for f, r in sorted(movie.frames.items()) if r.preview]
+        if previews:
+            rest["preview"] = previews
+        if missing:
+            rest["missing"] = missing
+        self._add(name, movie.write(), about, clauses, features, rest)
+
+    def recorded(self, name, data, about, clauses, features, facts):
+        """A file that was made before: facts are frames and previews."""
+        self._add(name, data, about, clauses, features, facts)
+
+    def bad(self, name, movie, about, clauses, features, error="corrupt", good=(), checks=None):
+        """A file that breaks one rule. good: frames a decoder may hand out before it notices; "all" or numbers."""
+        numbers = sorted(movie.frames) if good == "all" else sorted(good)
+        rest = {"error": error, "good": [{"frame": f, "mesh": movie.frames[f].mesh} for f in numbers]}
+        if checks:
+            rest["checks"] = checks
+        self._add("invalid/" + name, movie.write(), about, clauses, features, rest)
+
+    def manifest(self):
+        """The text of manifest.json, entries in the order of their names."""
+        entries = sorted(self.entries, key=lambda e: e["name"])
+        return json.dumps({"version": 1, "vectors": entries}, indent=1, ensure_ascii=True) + "\n"
