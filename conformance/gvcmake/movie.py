@@ -93,7 +93,7 @@ class Movie:
         main = self.track_id[self.main]
         tracks = [head.track(kind, self.track_id[kind], self.config, self.stream, self.media_time[kind], main,
                              kind == self.main, self.versions) for kind in self.kinds]
-        moov = Box("moov", children=[head.movie_header(self.config.rate_num, 1 + max(self.track_id.values()))] + tracks
+        moov = Box("moov", children=[head.movie_header(self.config.rate_num, min(1 + max(self.track_id.values()), 0xFFFFFFFF))] + tracks
                    + [head.extends(self.config, [self.track_id[k] for k in self.kinds])], large=self.large_moov)
         if self.edit_moov:
             self.edit_moov(moov)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """All vectors."""
-from . import good_surfaces
+from . import good_container, good_exact, good_records, good_streams, good_surfaces
 from .suite import Suite
 
-PARTS = (good_surfaces,)
+PARTS = (good_surfaces, good_container, good_streams, good_records, good_exact)
 
 
 def everything(folder):
