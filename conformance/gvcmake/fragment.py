@@ -38,6 +38,7 @@ class Fragment:
     mdat_size: int = None
     crc_flip: int = 0
     crc_missing: bool = False
+    crc_early: bool = False
     between: bytes = b""  # between moof and mdat
     before: bytes = b""  # before moof
     decode_time: int = None  # of tfdt, if it is to be another one than that of first_frame
@@ -97,18 +98,19 @@ def _moof(movie, fragment, number, places):
     return moof
 
 
-def close(box, flip=0, missing=False):
-    """Bytes of a box with gcrc as its last child."""
+def close(box, flip=0, missing=False, early=False):
+    """Bytes of a box with gcrc as its last child, or with another box behind that."""
     if missing:
         return box.encode()
-    box.add("", Box("gcrc", bytes(8)), -1)
-    raw = box.encode()[:-16]
-    return raw + seal(raw, flip)
+    behind = Box("free", bytes(8)).encode() if early else b""
+    box.children += [Box("gcrc", bytes(8))] + ([Box("free", bytes(8))] if early else [])
+    raw = box.encode()[:-16 - len(behind)]
+    return raw + seal(raw, flip) + behind
 
 
 def write(movie, fragment, number):
     """The bytes of moof and mdat, and the size of moof."""
-    size = len(close(_moof(movie, fragment, number, {}), 0, fragment.crc_missing))
+    size = len(close(_moof(movie, fragment, number, {}), 0, fragment.crc_missing, fragment.crc_early))
     at, places, data = size + (16 if fragment.large_mdat else 8), {}, b""
     for kind in ORDER:
         if kind in movie.kinds:
@@ -116,7 +118,7 @@ def write(movie, fragment, number):
             content = b"".join(fragment.runs[kind].samples)
             at += len(content)
             data += content
-    moof = close(_moof(movie, fragment, number, places), fragment.crc_flip, fragment.crc_missing)
+    moof = close(_moof(movie, fragment, number, places), fragment.crc_flip, fragment.crc_missing, fragment.crc_early)
     mdat = Box(fragment.mdat_type, data + fragment.mdat_tail, large=fragment.large_mdat)
     mdat.size = fragment.mdat_size
     return moof + fragment.between + mdat.encode(), size

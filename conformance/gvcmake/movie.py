@@ -44,7 +44,7 @@ class Movie:
     edit_index: object = None  # (mfra without gdig, gcrc, mfro)
     large_moov: bool = False
     large_mfra: bool = False
-    moov_crc: str = "right"  # or "wrong", "missing"
+    moov_crc: str = "right"  # or "wrong", "missing", "early"
     index_crc: str = "right"
     digest: str = "right"  # or "wrong", "missing"
     size_field: int = 0  # added to the size in mfro
@@ -101,8 +101,11 @@ class Movie:
         if self.moov_crc == "missing":
             return first + moov.encode()
         moov.add("", Box("gcrc", bytes(8)), -1)
-        raw = first + moov.encode()[:-16]
-        return raw + seal(raw, 1 if self.moov_crc == "wrong" else 0)
+        behind = Box("free", bytes(8)).encode() if self.moov_crc == "early" else b""
+        if behind:
+            moov.add("", Box("free", bytes(8)), -1)
+        raw = first + moov.encode()[:-16 - len(behind)]
+        return raw + seal(raw, 1 if self.moov_crc == "wrong" else 0) + behind
 
     def _table(self, entries):
         """tfra (4.10.1)."""
@@ -143,3 +146,36 @@ def _gap(gap):
     first = gap.first_frame if gap.stated_first is None else gap.stated_first
     raw = struct.pack(">I4sIQQ", 44, b"ggap", 0, first, gap.count)
     return raw + seal(raw, gap.crc_flip)
+
+
+def top_level(data):
+    """Offset, type and size of each box of the top level (sizes of 32 bits)."""
+    at, out = 0, []
+    while at + 8 <= len(data):
+        size, kind = struct.unpack_from(">I4s", data, at)
+        out.append((at, kind.decode("latin-1"), size))
+        at += size
+    return out
+
+
+def reseal(data):
+    """Makes checksums of head and index, offsets in tfra and the digest right again after boxes were moved."""
+    data = bytearray(data)
+    top = top_level(bytes(data))
+    places = [at for at, kind, _ in top if kind == "moof"]
+    for at, kind, size in top:
+        if kind == "moov":
+            data[at + size - 16:at + size] = seal(bytes(data[:at + size - 16]))
+    for at, kind, size in [b for b in top if b[1] == "mfra"][-1:]:
+        inner = at + 8
+        while inner < at + size:
+            length, child = struct.unpack_from(">I4s", data, inner)
+            if child == b"tfra":
+                for i, place in enumerate(places[:(length - 24) // 19]):
+                    struct.pack_into(">Q", data, inner + 32 + 19 * i, place)
+            elif child == b"gdig":
+                data[inner + 12:inner + 44] = hashlib.sha256(data[:inner + 12]).digest()
+            elif child == b"gcrc":
+                data[inner:inner + 16] = seal(bytes(data[at:inner]))
+            inner += length
+    return bytes(data)
