@@ -90,7 +90,7 @@ def _moof(movie, fragment, number, places):
     for kind in movie.kinds:
         run = fragment.runs[kind]
         boxes.append(Box("traf", children=[
-            _header(movie, kind, run), _time(run, time), _run(movie, kind, run, places.get(kind, 0)),
+            _header(movie, kind, run), _time(run, time), _run(movie, kind, run, places.get(kind, 1 << 16)),
             full("gcks", 0, 0, u32(*[crc32(s) for s in run.samples]))]))
     moof = Box("moof", children=boxes, large=fragment.large_moof)
     if fragment.edit:

@@ -31,7 +31,7 @@ def _each_run(movie, **fields):
 def simple(suite):
     """What every file is made of."""
     suite.good("core/base", base(), "three frames in two groups, the file that most invalid vectors are changed from",
-               ["4.1.1", "10.1", "10.2", "10.4", "11.3"], ["container"])
+               ["4.1.1", "10.1.1", "10.2.1", "10.2.2", "10.4", "11.3"], ["container"])
     suite.good("core/groups-of-one", _movie(frames=(1, 1, 1, 1)), "each frame is a group of its own", ["11.3", "6.2.5"],
                ["container"])
     suite.good("core/long-group", _movie(frames=(20,)), "twenty frames in one group: frame_num runs past its range",
@@ -255,7 +255,7 @@ def others(suite):
         moov.add("mvex", full("trex", 0, 0, u32(8, 1, 1, 0, 0)), 0)
     movie = base()
     movie.edit_moov = more
-    suite.good("extended/other-metadata-track", movie, "a metadata track with another URI", ["4.11.1", "14.5"], ["other tracks"])
+    suite.good("extended/other-metadata-track", movie, "a metadata track with another URI", ["4.11.1", "14.6"], ["other tracks"])
     for name, box in (("brand-compatible", file_type(b"isom", 512, (b"iso6", b"gvc1"))),
                       ("brand-major", file_type(b"gvc1", 7, ())),
                       ("brands-many", file_type(b"gvc1", 0, (b"abcd", b"gvc1", b"gvc2", b"mp42", b"iso6")))):
