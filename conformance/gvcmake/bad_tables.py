@@ -1,10 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Invalid vectors of side tables: gvc.md 8.2 and 8.5, each rule by itself."""
-import numpy
-
 from .content import codes_of, smooth
 from .h264 import Picture, code
-from .movie import Frame
 from .pictures import intra_pcm
 from .scenes import Group, add_units, draw, movie_for, straight
 from .shape import Chart
@@ -31,11 +28,6 @@ def _unchecked(size, parents, genus, steps, start):
     edges, sides = walk(list(parents), genus)
     nodes = [ROOT] + [JUNCTION if i + 1 in parents else extremum(i) for i in range(len(parents))]
     return Chart(size=size, steps=list(steps), sides=sides, start=start, nodes=nodes, edges=edges, genus=genus)
-
-
-def _welds_right(c, wanted):
-    """Whether rule 5 holds: so that vectors of other rules break only these."""
-    return corners_clear(c.size, c.start, c.steps, c.sides) is wanted
 
 
 def rule_1(suite):
@@ -84,23 +76,33 @@ def rule_4(suite):
     raise ValueError("no start")
 
 
+def _broken_corners(c):
+    """Corners at which rule 5 does not hold."""
+    sets = border_sets(c.size, c.start, c.steps, c.sides)
+    around = [{sets[(k * (c.size - 1) + d) % len(sets)] for d in range(-2, 3)} for k in range(4)]
+    return [k for k in range(4) if len(around[k]) < 5]
+
+
+def _folds(c):
+    sets = border_sets(c.size, c.start, c.steps, c.sides)
+    return [p for p in range(len(sets)) if sets[p - 1] == sets[(p + 1) % len(sets)]]
+
+
 def rule_5(suite):
-    """Corners."""
-    for name, distance in (("fold-on-corner", 0), ("fold-next-to-corner", 1), ("fold-before-corner", -1)):
+    """Corners: the rule holds at all but one."""
+    for name, distance in (("on", 0), ("behind", 1), ("before", -1)):
         for corner in range(4):
-            c = chart(16, (0,))
-            c.start = (15 * corner + distance) % 60
-            _table(suite, "%s-%d" % (name, corner), "a fold %d steps from corner %d" % (distance, corner), ["8.2(5)", "8.2.1"], c)
-    c = chart(16, (0, 0, 0), steps=[2, 14, 14], start=0) if False else _unchecked(16, (0, 0), 0, [3, 27], 0)
-    for start in range(60):
-        sets = border_sets(16, start, c.steps, c.sides)
-        folds = [p for p in range(60) if sets[(p - 1) % 60] == sets[(p + 1) % 60]]
-        near = [p for p in folds for k in range(4) if min((p - 15 * k) % 60, (15 * k - p) % 60) <= 1]
-        if not near and not corners_clear(16, start, c.steps, c.sides):
-            c.start = start
-            _table(suite, "corner-other", "two samples near a corner are one vertex, but neither is next to a fold there",
-                   ["8.2(5)", "8.2.1"], c)
-            return
+            found = (c for first in range(5, 13) for start in range(60)
+                     for c in [_unchecked(16, (0, 0, 0), 0, [first, 13, 17 - first], start)]
+                     if (15 * corner + distance) % 60 in _folds(c) and _broken_corners(c) == [corner])
+            _table(suite, "fold-%s-corner-%d" % (name, corner), "a fold %d steps from corner %d" % (distance, corner),
+                   ["8.2(5)", "8.2.1", "13.2"], next(found))
+    found = (c for loop in range(3, 5) for start in range(60)
+             for c in [_unchecked(16, (0,), 1, [12, loop, 18 - loop], start)]
+             if len(_broken_corners(c)) == 1 and not any(min((p - 15 * k) % 60, (15 * k - p) % 60) < 2
+                                                         for p in _folds(c) for k in range(4)))
+    _table(suite, "corner-in-loop", "two samples near a corner are one vertex, the ends of a short loop, with no fold near it",
+           ["8.2(5)", "8.2.1"], next(found))
 
 
 def genus(suite):

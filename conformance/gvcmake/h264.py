@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from .bits import BitWriter, nal_unit
 
-GREY_CHROMA = format(512, "010b") * 128
+CHROMA_SAMPLES = (0, 128, 256, 512)  # of a macroblock, by chroma_format_idc
 INTRA_MB_TYPE = {"I": 0, "P": 5, "B": 23}  # what mb_type of an intra macroblock begins with (7.4.5)
 SLICE_TYPE = {"P": 0, "B": 1, "I": 2}
 
@@ -27,6 +27,7 @@ class Stream:
     frame_num_bits: int = 4
     poc_type: int = 0
     poc_bits: int = 8
+    poc_cycle: int = 255  # of pic_order_cnt_type 1
     max_num_ref_frames: int = 2
     gaps: int = 0
     frame_mbs_only: int = 1
@@ -34,7 +35,6 @@ class Stream:
     vui: bool = True
     full_range: int = 1
     crop_extra: int = 0  # steps of two rows cropped besides what is needed
-    sps_tail: bytes = b""
     mb_columns: int = field(init=False)
     mb_rows: int = field(init=False)
 
@@ -60,6 +60,13 @@ class Stream:
         b.ue(self.poc_type)
         if self.poc_type == 0:
             b.ue(self.poc_bits - 4)
+        elif self.poc_type == 1:
+            b.u(1, 1)  # delta_pic_order_always_zero_flag
+            b.se(0)
+            b.se(0)
+            b.ue(self.poc_cycle)
+            for _ in range(self.poc_cycle):
+                b.se(1 << 29)
         b.ue(self.max_num_ref_frames)
         b.u(1, self.gaps)
         b.ue(self.mb_columns - 1)
@@ -71,7 +78,12 @@ class Stream:
         self._cropping(b)
         self._vui(b)
         b.trailing()
-        return nal_unit(7, 3, b.bytes()) + self.sps_tail
+        return nal_unit(7, 3, b.bytes())
+
+    def grey(self):
+        """The chroma samples of an I_PCM macroblock, all in the middle of their range."""
+        bits = 8 + self.depth_chroma
+        return format(1 << (bits - 1), "0%db" % bits) * CHROMA_SAMPLES[self.chroma_format_idc]
 
     def _cropping(self, b):
         right = (16 * self.mb_columns - self.width) // 2
@@ -169,7 +181,8 @@ def _macroblock(b, stream, picture, kind, at, first):
     if what == "pcm":
         b.ue(INTRA_MB_TYPE[kind] + 25)
         b.align()
-        b.text("".join(format(int(v), "010b") for v in value) + GREY_CHROMA)
+        form = "0%db" % (8 + stream.depth_luma)
+        b.text("".join(format(int(v) >> (2 - min(stream.depth_luma, 2)), form) for v in value) + stream.grey())
         return
     b.ue(INTRA_MB_TYPE[kind] + 1 + value)
     b.ue(0)  # intra_chroma_pred_mode: DC

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """All vectors."""
-from . import (bad_records, bad_tables, bad_config, bad_file, bad_fragments, bad_head, good_container, good_exact, good_records, good_streams, good_surfaces)
+from . import (bad_streams, bad_exact, bad_records, bad_tables, bad_config, bad_file, bad_fragments, bad_head, good_container, good_exact, good_records, good_streams, good_surfaces)
 from .suite import Suite
 
-PARTS = (good_surfaces, good_container, good_streams, good_records, good_exact, bad_head, bad_file, bad_fragments, bad_config, bad_records, bad_tables)
+PARTS = (good_surfaces, good_container, good_streams, good_records, good_exact, bad_head, bad_file, bad_fragments, bad_config, bad_records, bad_tables, bad_streams, bad_exact)
 
 
 def everything(folder):
