@@ -5,7 +5,7 @@ import struct
 from . import content, exr, residual
 from .exr import channel_list
 from .good_exact import CHART, exact_movie
-from .lossless import add_lossless, keyframe, lossless_movie, sample
+from .lossless import add_lossless, keyframe, lossless_movie
 from .scenes import Group, still_codes
 from .tables import chart
 
@@ -33,9 +33,9 @@ def files(suite):
         _image(suite, "window-" + name, "dataWindow %d %d %d %d" % window, ["6.5.2"],
                replace={"dataWindow": ("box2i", struct.pack("<4i", *window))})
     for order in (1, 2):
-        _image(suite, "line-order-%d" % order, "lineOrder %d" % order, ["6.5.2"], line_order=order)
+        _image(suite, "line-order-%d" % order, "lineOrder %d" % order, ["6.5.2"], "any", line_order=order)
     for name, kind in (("piz", 4), ("pxr24", 5), ("b44", 6), ("dwaa", 8), ("later", 99)):
-        _image(suite, "compression-" + name, "compression %d" % kind, ["6.5.2"], replace={"compression": ("compression", bytes([kind]))})
+        _image(suite, "compression-" + name, "compression %d" % kind, ["6.5.2"], "any", replace={"compression": ("compression", bytes([kind]))})
     names = exr.CHANNELS
     for name, value in (("missing", channel_list(names[:5])), ("more", channel_list(("W",) + names)),
                         ("other", channel_list(("R",) + names[1:])), ("float", channel_list(names, 2)), ("uint", channel_list(names, 0)),
@@ -89,12 +89,7 @@ def broken(suite):
     for name, edit in (("cut", lambda b: b[:-1]), ("cut-header", lambda b: b[:60]), ("cut-table", lambda b: b[:b.index(b"gvcUnit") + 30]),
                        ("cut-half", lambda b: b[:-200])):
         _bytes(suite, "exr-" + name, "an OpenEXR file that is cut: " + name, ["6.5.1"], edit, 0, (), feature="exr")
-    c = chart(*CHART)
-
-    def offset(image):
-        at = len(image) - len(exr.Image(content.exact_codes(16), c.origin, c.step, 0.0).encode())
-        return _first_offset(image, at)
-    _bytes(suite, "exr-offset", "the offset of the only block of lines is beyond the file", ["6.5.1"], offset, 0, (), feature="exr")
+    _bytes(suite, "exr-offset", "the offset of the only block of lines is beyond the file", ["6.5.1"], _first_offset, 0, (), feature="exr")
     _bytes(suite, "residual-first", "the first image of a fragment is a residual", ["6.4.3", "13.2"],
            lambda b: residual.encode(content.exact_codes(16)), 0, ())
     _bytes(suite, "predictor-2", "predictor 2", ["6.6.2"], lambda b: b"\2" + b[1:], error="unsupported")
@@ -117,7 +112,7 @@ def broken(suite):
         content.exact_codes(16, 1), content.exact_codes(16, 0), spoil=lambda k, x, y, e: 32768 if k + x + y == 0 else e))
 
 
-def _first_offset(image, _):
+def _first_offset(image):
     """The image with a wrong first entry of the table of offsets, which stands behind the byte that ends the header."""
     table = image.index(b"gvcUnit") + len(b"gvcUnit\0string\0") + 4 + 1 + 1
     return image[:table] + struct.pack("<Q", 1 << 40) + image[table + 8:]
@@ -157,7 +152,7 @@ def samples(suite):
     def flip_preview(records):
         records[2].preview_digest = bytes(8)
     suite.bad("exact-preview-digest-wrong", exact_movie(previews=still_codes(one, range(3)), edit_records=flip_preview),
-              "the digest of a preview is wrong", ["10.3.5"], ["exact", "preview"], good="all", checks="preview")
+              "the digest of a preview is wrong", ["10.3.5"], ["exact", "preview"], good=[0, 1], checks="preview")
 
     def spoil(moof):
         box = moof.get("traf[1]/gcks")

@@ -189,6 +189,9 @@ def index(suite):
     movie = base()
     movie.edit_index = lambda m: m.children.append(full("gdig", 0, 0, bytes(32)))
     suite.bad("index-two-gdig", movie, "there are two gdig", ["4.10 gdig"], ["index"], good="all")
+    movie = base()
+    movie.edit_index = lambda m: m.children.append(full("mfro", 0, 0, u32(99)))
+    suite.bad("index-two-mfro", movie, "there are two mfro", ["4.10 mfro"], ["index"], good="all")
 
 
 def gaps(suite):

@@ -46,7 +46,8 @@ def restrictions(suite):
         luma = draw(movie.config, [c], still_codes([c], [7])[0])
         units = [code(movie.stream, Picture("I", intra_pcm(movie.stream, luma), 0, 0, idr=True))]
         add_units(movie, Group([c], []), units, [luma], straight(1))
-        suite.bad("h264-" + name, movie, about, ["6.2.1"] + (["6.2.2"] if "cropped" in name else []), ["h264"])
+        suite.bad("h264-" + name, movie, about, ["6.2.1"] + (["6.2.2"] if "cropped" in name else []), ["h264"],
+                  "any" if "profile" in name else "corrupt")
     c = chart(16, (0, 1, 1))
     movie = movie_for([c], size=(32, 32), frame_mbs_only=0)
     add_group(movie, Group([c], still_codes([c], [7])))
@@ -65,16 +66,16 @@ def restrictions(suite):
 
 def configurations(suite):
     """avcC (6.2.4)."""
-    def changed(name, about, edit):
+    def changed(name, about, edit, error="corrupt"):
         movie = base()
 
         def on_moov(moov):
             box = moov.get(ENTRY + "avcC")
             box.fields = edit(box.fields, movie.stream)
         movie.edit_moov = on_moov
-        suite.bad("avcC-" + name, movie, about, ["6.2.4", "4.4 avcC"], ["h264"])
+        suite.bad("avcC-" + name, movie, about, ["6.2.4", "4.4 avcC"], ["h264"], error)
     changed("version-2", "configurationVersion 2", lambda f, s: b"\2" + f[1:])
-    changed("profile", "AVCProfileIndication 100", lambda f, s: f[:1] + b"\x64" + f[2:])
+    changed("profile", "AVCProfileIndication 100", lambda f, s: f[:1] + b"\x64" + f[2:], "any")
     for size in (1, 2):
         changed("lengths-%d" % size, "lengthSizeMinusOne %d" % (size - 1), lambda f, s, n=size: f[:4] + bytes([0xFB + n]) + f[5:])
     sets = (("no-sps", [], None), ("no-pps", None, []), ("two-sps", 2, None), ("two-pps", None, 2))

@@ -37,9 +37,14 @@ class Suite:
         self._add(name, data, about, clauses, features, facts)
 
     def bad(self, name, movie, about, clauses, features, error="corrupt", good=(), checks=None):
-        """A file that breaks one rule. good: frames a decoder may hand out before it notices; "all" or numbers."""
+        """A file that breaks one rule. good: frames a decoder may hand out before it notices; "all" or numbers.
+
+        checks: "whole file" if only a check of the whole file (10.5) notices, "preview" if only previews are bad.
+        """
         numbers = sorted(movie.frames) if good == "all" else sorted(good)
-        rest = {"error": error, "good": [{"frame": f, "mesh": movie.frames[f].mesh} for f in numbers]}
+        frames = movie.frames
+        mesh = {f: frames[f].preview[1] if checks == "preview" else frames[f].mesh for f in numbers}
+        rest = {"error": error, "good": [{"frame": f, "mesh": mesh[f]} for f in numbers]}
         if checks:
             rest["checks"] = checks
         self._add("invalid/" + name, movie.write(), about, clauses, features, rest)

@@ -146,7 +146,7 @@ def judge(vector, commands):
     failures, skipped = [], []
     jobs = []
     if vector["category"] == "invalid":
-        by = "verify" if vector.get("checks") == "whole file" else "decoder"
+        by = {"whole file": "verify", "preview": "preview"}.get(vector.get("checks"), "decoder")
         command = getattr(commands, by)
         jobs.append((by, command, lambda o: judge_bad(vector, o, commands.statuses)))
     else:
