@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """All vectors."""
-from . import (bad_streams, bad_exact, bad_records, bad_tables, bad_config, bad_file, bad_fragments, bad_head, good_container, good_exact, good_records, good_streams, good_surfaces)
+from . import (bad_streams, bad_exact, bad_records, bad_tables, bad_config, bad_file, bad_fragments, bad_head, good_container, good_exact, good_records, good_streams, good_surfaces, recorded)
 from .suite import Suite
 
 PARTS = (good_surfaces, good_container, good_streams, good_records, good_exact, bad_head, bad_file, bad_fragments, bad_config, bad_records, bad_tables, bad_streams, bad_exact)
@@ -11,4 +11,5 @@ def everything(folder):
     suite = Suite()
     for part in PARTS:
         part.everything(suite)
+    recorded.everything(suite, folder)
     return suite
