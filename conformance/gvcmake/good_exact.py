@@ -58,6 +58,8 @@ def attributes(suite):
         ("comments", "string", b"something"), ("made", "someType", bytes(range(40))), ("gvcLater", "int", b"\1\0\0\0")))
     make("a displayWindow of another size", "display-window", ["6.5.2"],
          replace={"displayWindow": ("box2i", struct.pack("<4i", -5, 3, 99, 77))})
+    make("gvcOrigin and gvcStep that are not those of the record, which holds", "map-differs", ["6.5.6"],
+         replace={"gvcOrigin": ("v3d", struct.pack("<3d", 5, 6, 7)), "gvcStep": ("double", struct.pack("<d", 2))})
     movie = exact_movie()
     movie.config.unit = "mm"
     suite.good("extended/exr-unit-differs", movie, "gvcUnit m, while unit is mm", ["6.5.5", "5.5"], ["exact", "exr"])

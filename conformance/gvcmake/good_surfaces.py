@@ -6,7 +6,7 @@ from . import content
 from .scenes import Group, add_group, add_sparse, movie_for, still_codes
 from .tables import chart, starts
 
-SURFACE = ["8.4.1", "9.2.1", "9.3.1", "9.3.2", "10.3.1"]
+SURFACE = ["8.4.1", "9.2.1", "9.3.1", "9.3.2", "9.4.1", "10.3.1"]
 
 
 def _one(c, codes=None, seed=None, **fields):
@@ -29,7 +29,7 @@ def sizes(suite):
                    1 if size < 100 else 0)
         suite.good("%s/size-%d" % ("core" if size < 500 else "extended", size), movie,
                    "charts of %d x %d samples, most of them predicted within the picture" % (size, size),
-                   ["6.3.1", "5.4", "13.1"] + SURFACE, ["image size"])
+                   ["6.3.1", "5.4", "13.1", "13.4.2"] + SURFACE, ["image size"])
 
 
 def examples(suite):

@@ -36,5 +36,5 @@ def everything(suite, folder):
                 data = stream.read()
         if hashlib.sha256(data).hexdigest() != entry["sha256"]:
             raise ValueError(path + " is not the file that was recorded")
-        facts = {key: entry[key] for key in ("frames", "preview") if key in entry}
+        facts = {key: entry[key] for key in ("profile", "level", "frames", "preview") if key in entry}
         suite.recorded(entry["name"], data, "%s (%s)" % (entry["about"], entry["command"]), entry["clauses"], entry["features"], facts)

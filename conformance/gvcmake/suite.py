@@ -4,6 +4,27 @@ import hashlib
 import json
 
 
+# Of a level (gvc.md 13.4): image_size, samples of a picture, samples a second.
+LEVELS = ((129, 65536, 2097152), (257, 262144, 8388608), (513, 1048576, 33554432), (1025, 4194304, 134217728),
+          (2049, 16777216, 536870912))
+
+
+def profile(kinds):
+    """The profile (14.5) of a file with these tracks."""
+    if "exact" not in kinds:
+        return "lossy"
+    return "preview" if "geometry" in kinds else "lossless"
+
+
+def level(config):
+    """The level (13.4) of a file."""
+    area = (config.picture_width + 15) // 16 * 16 * ((3 * config.plane_height + 15) // 16 * 16)
+    for number, (size, samples, rate) in enumerate(LEVELS, 1):
+        if config.image_size <= size and area <= samples and area * config.rate_num <= rate * config.rate_den:
+            return number
+    return 6
+
+
 class Suite:
     """Collects vectors. Names are folder/name; the folder is the category: core, extended or invalid."""
 
@@ -23,7 +44,8 @@ class Suite:
         """A file that keeps all rules: frames, previews and what gaps state come from the movie."""
         from .movie import Gap
         missing = [f for p in movie.parts if isinstance(p, Gap) for f in range(p.first_frame, p.first_frame + p.count)]
-        rest = {"frames": [{"frame": f, "digest": r.digest.hex(), "mesh": r.mesh} for f, r in sorted(movie.frames.items())]}
+        rest = {"profile": profile(movie.kinds), "level": level(movie.config),
+                "frames": [{"frame": f, "digest": r.digest.hex(), "mesh": r.mesh} for f, r in sorted(movie.frames.items())]}
         previews = [{"frame": f, "digest": r.preview[0].hex(), "mesh": r.preview[1]}
                     for f, r in sorted(movie.frames.items()) if r.preview]
         if previews:
@@ -44,7 +66,7 @@ class Suite:
         numbers = sorted(movie.frames) if good == "all" else sorted(good)
         frames = movie.frames
         mesh = {f: frames[f].preview[1] if checks == "preview" else frames[f].mesh for f in numbers}
-        rest = {"error": error, "good": [{"frame": f, "mesh": mesh[f]} for f in numbers]}
+        rest = {"profile": profile(movie.kinds), "error": error, "good": [{"frame": f, "mesh": mesh[f]} for f in numbers]}
         if checks:
             rest["checks"] = checks
         self._add("invalid/" + name, movie.write(), about, clauses, features, rest)

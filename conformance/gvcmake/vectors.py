@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
 """All vectors."""
-from . import (bad_streams, bad_exact, bad_records, bad_tables, bad_config, bad_file, bad_fragments, bad_head, good_container, good_exact, good_records, good_streams, good_surfaces, recorded)
+from . import (bad_config, bad_exact, bad_file, bad_fragments, bad_head, bad_records, bad_streams, bad_tables, good_container,
+               good_exact, good_records, good_streams, good_surfaces, recorded)
 from .suite import Suite
 
-PARTS = (good_surfaces, good_container, good_streams, good_records, good_exact, bad_head, bad_file, bad_fragments, bad_config, bad_records, bad_tables, bad_streams, bad_exact)
+PARTS = (good_surfaces, good_container, good_streams, good_records, good_exact, bad_head, bad_file, bad_fragments, bad_config,
+         bad_records, bad_tables, bad_streams, bad_exact)
 
 
 def everything(folder):

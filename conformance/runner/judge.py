@@ -12,18 +12,22 @@ from dataclasses import dataclass
 from . import ply
 
 CLASSES = ("corrupt", "unsupported")
+PROFILES = ("lossy", "lossless", "preview")
 FRAME = re.compile(r"(\d{6,})\.ply$")
 SANITIZER = re.compile(rb"ERROR: \w*Sanitizer|runtime error:")
 
 
 @dataclass
 class Commands:
-    """Commands with {in} and {out}; statuses: exit status of each class of refusal that is to be compared."""
+    """Commands with {in} and {out}; statuses: exit status of each class of refusal that is to be compared; what the
+    decoder claims: profiles (14.5) and a level (13.4)."""
     decoder: str
     preview: str
     verify: str
     statuses: dict
     timeout: float
+    profiles: tuple = PROFILES
+    level: int = 6
 
 
 @dataclass
@@ -141,21 +145,37 @@ def judge_bad(vector, outcome, statuses):
     return failures
 
 
+def judge_beyond(vector, outcome):
+    """A valid file of a greater level than is claimed: decoded, or refused without a wrong frame."""
+    if outcome.status == 0:
+        return judge_good(vector, vector["frames"], outcome)
+    return judge_bad({"error": "any", "good": vector["frames"]}, outcome, {})
+
+
+def checks(vector, commands):
+    """What is to be run for a vector: name of the command, and what judges how it ended."""
+    statuses = commands.statuses
+    if vector["profile"] not in commands.profiles:
+        error = "any" if vector["category"] == "invalid" else "unsupported"
+        return [("decoder", lambda o: judge_bad({"error": error, "good": []}, o, statuses))]
+    if vector["category"] == "invalid":
+        by = {"whole file": "verify", "preview": "preview"}.get(vector.get("checks"), "decoder")
+        return [(by, lambda o: judge_bad(vector, o, statuses))]
+    if vector["level"] > commands.level:
+        return [("decoder", lambda o: judge_beyond(vector, o))]
+    jobs = [("decoder", lambda o: judge_good(vector, vector["frames"], o))]
+    if "preview" in vector:
+        jobs.append(("preview", lambda o: judge_good(vector, vector["preview"], o)))
+    if commands.verify:
+        jobs.append(("verify", lambda o: ["refused: exit status %d" % o.status] if o.status else []))
+    return jobs
+
+
 def judge(vector, commands):
     """All checks of one vector."""
     failures, skipped = [], []
-    jobs = []
-    if vector["category"] == "invalid":
-        by = {"whole file": "verify", "preview": "preview"}.get(vector.get("checks"), "decoder")
-        command = getattr(commands, by)
-        jobs.append((by, command, lambda o: judge_bad(vector, o, commands.statuses)))
-    else:
-        jobs.append(("decoder", commands.decoder, lambda o: judge_good(vector, vector["frames"], o)))
-        if "preview" in vector:
-            jobs.append(("preview", commands.preview, lambda o: judge_good(vector, vector["preview"], o)))
-        if commands.verify:
-            jobs.append(("verify", commands.verify, lambda o: ["refused: exit status %d" % o.status] if o.status else []))
-    for name, command, check in jobs:
+    for name, check in checks(vector, commands):
+        command = getattr(commands, name)
         if not command:
             skipped.append(name)
             continue
