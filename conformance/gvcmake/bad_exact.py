@@ -106,9 +106,9 @@ def broken(suite):
 
     def great(k, x, y, e):
         return 40000 if (k, x, y) == (1, 3, 2) else e
-    _bytes(suite, "residual-too-great", "a residual of 40000", ["6.6.4"], lambda b: residual.encode(
+    _bytes(suite, "residual-too-great", "a residual of 40000", ["6.6.4"], lambda b: residual.encode_spoiled(
         content.exact_codes(16, 1), content.exact_codes(16, 0), spoil=great))
-    _bytes(suite, "residual-32768", "a residual of 32768", ["6.6.4"], lambda b: residual.encode(
+    _bytes(suite, "residual-32768", "a residual of 32768", ["6.6.4"], lambda b: residual.encode_spoiled(
         content.exact_codes(16, 1), content.exact_codes(16, 0), spoil=lambda k, x, y, e: 32768 if k + x + y == 0 else e))
 
 

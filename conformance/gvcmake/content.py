@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What the images show: smooth bumps and pseudo-random numbers, in integer arithmetic that gives the same for ever."""
+import functools
+
 import numpy
 
 
@@ -20,6 +22,16 @@ class Lcg:
         return numpy.array([self.below(limit) for _ in range(count)], numpy.int64).reshape(shape)
 
 
+def kept(make):
+    """Keeps what a function made, for it is asked for again and again; nobody may write into it."""
+    @functools.lru_cache(maxsize=256)
+    def made(*args, **fields):
+        out = make(*args, **fields)
+        out.setflags(write=False)
+        return out
+    return functools.wraps(make)(made)
+
+
 def wave(phase):
     """A wave of period 256 between 0 and 255: parabolas instead of a sine."""
     t = phase % 256
@@ -28,6 +40,7 @@ def wave(phase):
     return numpy.where(t < 128, 128 + hump - 1, 128 - hump).clip(0, 255)
 
 
+@kept
 def smooth(size, time=0):
     """10-bit values [3][S][S] of a bumpy surface that moves with `time`."""
     i, j = numpy.meshgrid(numpy.arange(size) * 256 // size, numpy.arange(size) * 256 // size)
@@ -37,6 +50,7 @@ def smooth(size, time=0):
     return numpy.stack([x, y, z]).astype(numpy.int64)
 
 
+@kept
 def noise(size, seed):
     """10-bit values [3][S][S] without any order."""
     return Lcg(seed).array((3, size, size), 1024)
@@ -47,6 +61,7 @@ def codes_of(luma):
     return (luma.astype(numpy.int64) << 6).astype(numpy.uint16)
 
 
+@kept
 def exact_codes(size, time=0, seed=None):
     """16-bit codes [3][S][S]: the bumps with finer steps, or noise."""
     if seed is not None:

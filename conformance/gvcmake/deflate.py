@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """zlib streams (RFC 1950, 1951) with fixed codes, made the same way for ever: no version of zlib changes a byte."""
+import functools
 import struct
 import zlib
 
@@ -45,6 +46,7 @@ def _match(bits, length, distance):
     bits.put(distance - DISTANCES[d], 0 if d < 4 else d // 2 - 1)
 
 
+@functools.lru_cache(maxsize=256)
 def compress(data):
     """A zlib stream of one block: at each place the latest match of three bytes and more is taken."""
     bits, latest, at = _Bits(), {}, 0

@@ -94,7 +94,18 @@ class Residuals:
         self.seen[k, y + 2, x + 2] = u
 
 
-def encode(codes, before=None, predictor=GRADIENT, spoil=None):
+_made = {}
+
+
+def encode(codes, before=None, predictor=GRADIENT):
+    """A residual image as below, which is kept, for many vectors have the same."""
+    key = (codes.tobytes(), None if before is None else before.tobytes(), predictor)
+    if key not in _made:
+        _made[key] = encode_spoiled(codes, before, predictor)
+    return _made[key]
+
+
+def encode_spoiled(codes, before=None, predictor=GRADIENT, spoil=None):
     """A residual image of codes [3][S][S]; before: the codes of the frame before, or None for reference 0.
 
     spoil(k, x, y, e) may give another residual to be written than the right one.

@@ -70,9 +70,9 @@ def welded_codes(vertex, codes):
 
 def diagonals(vertex, fold, welded):
     """Whether the diagonal of each square is ac (9.3.2)."""
-    a, b, c, d = vertex[:-1, :-1], vertex[:-1, 1:], vertex[1:, 1:], vertex[1:, :-1]
     fa, fb, fc, fd = fold[:-1, :-1], fold[:-1, 1:], fold[1:, 1:], fold[1:, :-1]
-    ac = ((welded[a] - welded[c]) ** 2).sum(axis=2) <= ((welded[b] - welded[d]) ** 2).sum(axis=2)
+    codes = [welded[:, k][vertex] for k in range(3)]
+    ac = sum((u[:-1, :-1] - u[1:, 1:]) ** 2 for u in codes) <= sum((u[:-1, 1:] - u[1:, :-1]) ** 2 for u in codes)
     ac = numpy.where(fa | fc, True, numpy.where(fb | fd, False, ac))
     ac[0, 0] = ac[-1, -1] = True
     ac[0, -1] = ac[-1, 0] = False
@@ -81,9 +81,10 @@ def diagonals(vertex, fold, welded):
 
 def faces(vertex, fold, welded):
     """Faces in their order (9.3.1), an array [F][3]."""
-    a, b, c, d = (v.reshape(-1) for v in (vertex[:-1, :-1], vertex[:-1, 1:], vertex[1:, 1:], vertex[1:, :-1]))
     ac = diagonals(vertex, fold, welded).reshape(-1)
-    out = numpy.empty((len(a), 2, 3), numpy.int64)
+    vertex = vertex.astype(numpy.uint32)
+    a, b, c, d = (v.reshape(-1) for v in (vertex[:-1, :-1], vertex[:-1, 1:], vertex[1:, 1:], vertex[1:, :-1]))
+    out = numpy.empty((len(a), 2, 3), numpy.uint32)
     out[:, 0, 0], out[:, 0, 1], out[:, 0, 2] = a, b, numpy.where(ac, c, d)
     out[:, 1, 0], out[:, 1, 1], out[:, 1, 2] = numpy.where(ac, a, b), c, d
     return out.reshape(-1, 3)
@@ -111,6 +112,6 @@ def rebuild(charts, codes):
         digest.update(struct.pack(">II", len(welded), len(triangles)))
         digest.update(welded.astype(">u2").tobytes() + triangles.astype(">u4").tobytes())
         all_points.append(positions(welded, chart.origin, chart.step))
-        all_faces.append(triangles + raised)
+        all_faces.append(triangles + numpy.uint32(raised))
         raised += len(welded)
     return digest.digest()[:8], mesh_hash(numpy.concatenate(all_points), numpy.concatenate(all_faces))
