@@ -180,6 +180,7 @@ def index(suite):
         return change_bytes
     for name, about, row, edit in (
             ("without-mfro", "mfra does not end in mfro", "4.10 mfro", lambda b: b[:-16]),
+            ("digest-first", "gdig is not the third last child of mfra", "4.10 mfra", lambda b: b[-76:-32] + b[:-76] + b[-32:]),
             ("mfro-version", "mfro of version 1", "4.10 mfro", lambda b: b[:-8] + b"\1" + b[-7:]),
             ("mfro-flags", "mfro with a flag", "4.10 mfro", lambda b: b[:-5] + b"\1" + b[-4:])):
         movie = base()

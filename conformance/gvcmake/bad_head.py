@@ -77,7 +77,7 @@ def tracks(suite):
           lambda m: m.patch("trak[1]/tref/cdsc", 0, u32(2)))
     _moov(suite, "without-cdsc", "tref holds no cdsc", ["4.5 tref"], lambda m: m.remove("trak[1]/tref/cdsc"))
     for name, path in (("geometry", "trak"), ("shape", "trak[1]")):
-        _moov(suite, "timescale-" + name, "the timescale of the %s track is not N" % name, ["11.1"],
+        _moov(suite, "timescale-" + name, "the timescale of the %s track is not N" % name, ["11.1", "4.4 mdhd"],
               lambda m, p=path: m.patch(p + "/mdia/mdhd", 12, u32(26)))
     movie = base()
     movie.file_type = file_type(b"isom", 0, (b"iso6", b"mp41"))

@@ -290,6 +290,28 @@ def configurations(suite):
                    ["5.1", "5.3", "14.4"], ["gvcC"])
 
 
+def ignored(suite):
+    """Fields and boxes that say nothing to a decoder (4.1.5, 4.4.1)."""
+    movie = base()
+    movie.edit_moov = lambda m: m.remove("trak/mdia/minf/stbl/stsd/avc1/colr")
+    suite.good("extended/no-colr", movie, "there is no colr", ["4.4.1", "4.1.5"], ["container"])
+
+    def dates(moov):
+        for path in ("mvhd", "trak/tkhd", "trak[1]/tkhd", "trak/mdia/mdhd", "trak[1]/mdia/mdhd"):
+            moov.patch(path, 4, u32(3900000000, 3900000001))
+        moov.patch("trak/edts/elst", 8, u64(3))
+        moov.patch("trak[1]/mdia/mdhd", 20, u16(0x15C7))
+    movie = base()
+    movie.edit_moov = dates
+    suite.good("core/dates", movie, "times of creation, a language, and a segment duration in the edit list", ["4.1.5", "11.2"],
+               ["container"])
+    movie = base()
+    for part in movie.parts:
+        part.edit = lambda moof: [
+            setattr(moof.get(p), "fields", u32(0x020002) + moof.get(p).fields[4:8] + u32(1)) for p in ("traf/tfhd", "traf[1]/tfhd")]
+    suite.good("extended/description-in-tfhd", movie, "tfhd says that the sample description is 1", ["4.6.1"], ["runs"])
+
+
 def gaps(suite):
     """Repaired files (12.8)."""
     one = chart(16, (0, 1, 1))
@@ -309,5 +331,5 @@ def gaps(suite):
 
 def everything(suite):
     """All of them."""
-    for part in (simple, runs, times, order, index, large, unknown, others, configurations, gaps):
+    for part in (simple, runs, times, order, index, large, unknown, others, configurations, ignored, gaps):
         part(suite)

@@ -116,6 +116,10 @@ def tracks(suite):
     movie.kinds = ("exact", "shape", "geometry")
     suite.good("extended/exact-track-first", movie, "trak and traf of the exact track come first", ["4.10.2", "4.8.1"],
                ["exact", "preview"])
+    movie = exact_movie()
+    for run in movie.fragment().runs.values():
+        run.offsets = True
+    suite.good("extended/exact-offsets", movie, "composition offsets that are all 0", ["4.9.3", "4.7.4"], ["exact", "times"])
     movie = exact_movie(previews=still_codes(one, range(3)))
 
     def second_configuration(moov):

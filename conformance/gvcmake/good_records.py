@@ -14,7 +14,8 @@ def _movie(times=(7, 7), edit=None, **fields):
 
 def packed(suite):
     """Bodies in Zstandard frames."""
-    for name, pack in (("raw", zstd.raw), ("runs", zstd.runs), ("checksum", zstd.checksummed)):
+    for name, pack in (("raw", zstd.raw), ("runs", zstd.runs), ("checksum", zstd.checksummed), ("eight-bytes", lambda b: zstd.raw(b, zstd.long_header(len(b)))),
+                       ("window", lambda b: zstd.raw(b, zstd.window_header(len(b))))):
         suite.good("core/zstd-" + name, _movie(pack=pack), "body in a Zstandard frame: %s" % name, ["7.1.3"], ["zstd"])
     c = chart(33, tuple(range(30)))
     movie = movie_for([c])

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Valid vectors of H.264 streams: gvc.md 6.2."""
-import numpy
-
+from . import content
 from .bits import nal_unit
 from .h264 import Picture, code
 from .pictures import against, intra_pcm, pcm
@@ -71,6 +70,17 @@ def references(suite):
                "picture that is no IDR picture", ["6.2.6", "6.2.5"], ["h264"])
 
 
+def colours(suite):
+    """Chroma, which decoders ignore (6.1.2)."""
+    c, codes = _changing(16, 1)
+    movie, lcg = movie_for([c]), content.Lcg(8)
+    luma = draw(movie.config, [c], codes[0])
+    picture = Picture("I", intra_pcm(movie.stream, luma), 0, 0, idr=True, chroma=lambda: "".join(
+        format(lcg.below(1024), "010b") for _ in range(128)))
+    add_units(movie, Group([c], codes), [code(movie.stream, picture)], [luma], straight(1))
+    suite.good("extended/h264-chroma", movie, "chroma without order, where it should be 512", ["6.1.2"], ["h264"])
+
+
 def other_units(suite):
     """NAL units that decoders SHOULD skip."""
     sei = nal_unit(6, 0, b"\x05\x11" + bytes(range(16)) + b"\x41\x80")
@@ -88,5 +98,5 @@ def other_units(suite):
 
 def everything(suite):
     """All of them."""
-    for part in (parameters, slices, references, other_units):
+    for part in (parameters, slices, references, colours, other_units):
         part(suite)

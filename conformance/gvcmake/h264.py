@@ -138,6 +138,7 @@ class Picture:
     slices: tuple = (0,)  # first macroblock of each
     idr_pic_id: int = 0
     mixed: bool = False  # intra slices in a P or B picture where nothing is skipped
+    chroma: object = None  # makes the chroma bits of an I_PCM macroblock, if they are not to be grey
 
 
 def _slice_header(stream, picture, kind, first):
@@ -182,7 +183,8 @@ def _macroblock(b, stream, picture, kind, at, first):
         b.ue(INTRA_MB_TYPE[kind] + 25)
         b.align()
         form = "0%db" % (8 + stream.depth_luma)
-        b.text("".join(format(int(v) >> (2 - min(stream.depth_luma, 2)), form) for v in value) + stream.grey())
+        b.text("".join(format(int(v) >> (2 - min(stream.depth_luma, 2)), form) for v in value))
+        b.text(picture.chroma() if picture.chroma else stream.grey())
         return
     b.ue(INTRA_MB_TYPE[kind] + 1 + value)
     b.ue(0)  # intra_chroma_pred_mode: DC

@@ -15,6 +15,16 @@ def frame_header(size):
     return MAGIC + b"\xa0" + struct.pack("<I", size)
 
 
+def long_header(size):
+    """Single segment, content size in eight bytes."""
+    return MAGIC + b"\xe0" + struct.pack("<Q", size)
+
+
+def window_header(size):
+    """A window descriptor (1 kB), content size in four bytes."""
+    return MAGIC + b"\x80\x00" + struct.pack("<I", size)
+
+
 def block(kind, size, content, last):
     """One block: kind 0 raw, 1 RLE (RFC 8878 3.1.1.2)."""
     return struct.pack("<I", size << 3 | kind << 1 | last)[:3] + content
