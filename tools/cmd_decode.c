@@ -170,9 +170,9 @@ static int decode(decode_arguments *a, const gvc_reader *reader) {
     gvc_decoder *decoder = NULL;
     gvc_reader_info(reader, &info);
     uint64_t count = cli_frame_count(&info);
-    if (count == 0) {
+    if (count == 0) { /* not an error, unless some were asked for or may have been lost */
         fprintf(stderr, "gvc decode: %s: the file holds no frames\n", a->input);
-        return EXIT_DATA;
+        return a->frames || info.damage_count > 0 ? EXIT_DATA : EXIT_DONE;
     }
     int status = cli_choose_frames("decode", a->frames, count, &a->first, &a->last);
     if (status == EXIT_DONE && !a->no_output) {

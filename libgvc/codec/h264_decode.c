@@ -145,6 +145,10 @@ static gvc_result check_slice_type(unsigned type, bool keyframe, gvc_error *erro
     return GVC_OK;
 }
 
+static gvc_result fail_units(gvc_error *error) {
+    return gvc_fail(error, GVC_ERROR_CORRUPT, "the NAL units of a sample do not fill it");
+}
+
 /* Measures the slices of an AVC sample, and with `out` copies them: parameter sets must not stand
  * there (they could change the size of the pictures); SEI and delimiters say nothing about samples
  * and are left out. `head` gets the head of the last slice. */
@@ -152,10 +156,10 @@ static gvc_result copy_slices(const gvc_h264_decoder *d, const uint8_t *data, si
                               uint8_t *out, size_t *copied, slice_head *head, gvc_error *error) {
     gvc_cursor in = gvc_cursor_make(data, size);
     size_t length = 0;
-    while (gvc_cursor_left(&in) > 0 && !in.failed) {
+    while (gvc_cursor_left(&in) > 0) {
         size_t begin = in.position, nal_size = gvc_read_u32(&in);
         const uint8_t *nal = gvc_read_bytes(&in, nal_size);
-        if (in.failed || !nal || nal_size < 2) break;
+        if (in.failed || !nal || nal_size < 2) return fail_units(error);
         unsigned type = nal[0] & 31;
         if (type == NAL_SEI || type == NAL_AUD || type == NAL_FILLER) continue;
         if (nal[0] & 0x80) {
@@ -171,9 +175,7 @@ static gvc_result copy_slices(const gvc_h264_decoder *d, const uint8_t *data, si
         if (out) memcpy(out + length, data + begin, 4 + nal_size);
         length += 4 + nal_size;
     }
-    if (in.failed || gvc_cursor_left(&in) > 0 || length == 0) {
-        return gvc_fail(error, GVC_ERROR_CORRUPT, "the NAL units of a sample do not fill it");
-    }
+    if (length == 0) return fail_units(error);
     *copied = length;
     return GVC_OK;
 }

@@ -90,10 +90,17 @@ gvc_result gvc_parse_index(gvc_parser *parser, gvc_box *mfra, gvc_error *error) 
     GVC_TRY(check_tail(parser, mfra, error));
     gvc_box rest = *mfra, tfra;
     bool found = false;
+    unsigned digests = 0, ends = 0;
     while (gvc_cursor_left(&rest.content)) {
         uint8_t version;
         uint32_t flags;
         GVC_TRY(gvc_box_next(&rest, &tfra, error));
+        digests += tfra.type == GVC_BOX_GDIG;
+        ends += tfra.type == GVC_BOX_MFRO;
+        if (digests > 1 || ends > 1) {
+            return gvc_box_fail(&tfra, error, GVC_ERROR_CORRUPT,
+                                "a second box of a kind that may stand once");
+        }
         if (tfra.type != GVC_BOX_TFRA) continue;
         GVC_TRY(gvc_box_version(&tfra, 1, &version, &flags, error));
         uint32_t track_id = gvc_read_u32(&tfra.content);
