@@ -145,6 +145,15 @@ static gvc_result check_slice_type(unsigned type, bool keyframe, gvc_error *erro
     return GVC_OK;
 }
 
+/* In a byte stream a NAL unit ends where a start code begins (Annex B), so what stands behind one
+ * inside of a unit would be another unit there, a parameter set perhaps (7.4.1). */
+static bool holds_start_code(const uint8_t *nal, size_t size) {
+    for (size_t i = 2; i < size; i++) {
+        if (nal[i] <= 2 && nal[i - 1] == 0 && nal[i - 2] == 0) return true;
+    }
+    return nal[size - 1] == 0;
+}
+
 static gvc_result fail_units(gvc_error *error) {
     return gvc_fail(error, GVC_ERROR_CORRUPT, "the NAL units of a sample do not fill it");
 }
@@ -161,6 +170,9 @@ static gvc_result copy_slices(const gvc_h264_decoder *d, const uint8_t *data, si
         const uint8_t *nal = gvc_read_bytes(&in, nal_size);
         if (in.failed || !nal || nal_size < 2) return fail_units(error);
         unsigned type = nal[0] & 31;
+        if (!out && holds_start_code(nal, nal_size)) {
+            return gvc_fail(error, GVC_ERROR_CORRUPT, "a NAL unit with a start code inside");
+        }
         if (type == NAL_SEI || type == NAL_AUD || type == NAL_FILLER) continue;
         if (nal[0] & 0x80) {
             return gvc_fail(error, GVC_ERROR_CORRUPT, "the head of a NAL unit is damaged");
@@ -180,14 +192,13 @@ static gvc_result copy_slices(const gvc_h264_decoder *d, const uint8_t *data, si
     return GVC_OK;
 }
 
-/* libavcodec makes up a picture where a reference is missing. frame_num tells (7.4.3): it is that
- * of the previous reference picture or one more. */
+/* libavcodec makes up a picture where a reference is missing. frame_num tells (7.4.3): it is one
+ * more than that of the previous reference picture. */
 static gvc_result check_frame_num(gvc_h264_decoder *d, const slice_head *head, gvc_error *error) {
     uint32_t mask = (UINT32_C(1) << d->frame_num_bits) - 1;
-    bool follows = d->sent == 0 ? head->frame_num == 0
-                                : head->frame_num == d->reference_frame_num ||
-                                      head->frame_num == ((d->reference_frame_num + 1) & mask);
-    if (!follows) return gvc_fail(error, GVC_ERROR_CORRUPT, "a reference picture is missing");
+    uint32_t expected = d->sent == 0 ? 0 : (d->reference_frame_num + 1) & mask;
+    if (head->frame_num != expected)
+        return gvc_fail(error, GVC_ERROR_CORRUPT, "a reference picture is missing");
     if (head->reference) d->reference_frame_num = head->frame_num;
     return GVC_OK;
 }
