@@ -118,12 +118,19 @@ def units(suite):
     for name, unit in (("sps", stream.sps()), ("pps", stream.pps()), ("partition-a", nal_unit(2, 3, b"\x88\x80")),
                        ("partition-b", nal_unit(3, 3, b"\x88\x80")), ("partition-c", nal_unit(4, 3, b"\x88\x80")),
                        ("extension", nal_unit(20, 3, b"\x00\x00\x07\x88\x80")), ("prefix", nal_unit(14, 3, b"\x00\x00\x07")),
-                       ("end-of-sequence", b"\x0a"), ("sps-extension", nal_unit(13, 3, b"\xc0")),
+                       ("end-of-sequence", b"\x0a\x80"), ("sps-extension", nal_unit(13, 3, b"\xc0")),
                        ("auxiliary", nal_unit(19, 3, b"\x88\x80")), ("unspecified", nal_unit(24, 0, b"\x80"))):
-        if name in ("end-of-sequence", "sps-extension", "unspecified", "prefix"):
-            continue  # the text does not name them among those to be rejected
         _units(suite, "unit-" + name, "a NAL unit of type %d in a sample" % (unit[0] & 31), ["6.2.5"] + (
             ["13.2"] if name in ("sps", "pps") else []), lambda us, u=unit: us[1].insert(0, u), good=[0, 1])
+    hidden = b"\0\0\1" + stream.sps()
+    for name, about, unit in (("parameter-set-hidden", "a NAL unit of type 6 with a start code and a parameter set inside", b"\x06" + hidden),
+                              ("three-zeros", "three bytes 00 inside of a NAL unit of type 12", b"\x0c\xff\0\0\0\xff\x80"),
+                              ("zeros-and-2", "00 00 02 inside of a NAL unit of type 12", b"\x0c\xff\0\0\2\xff\x80"),
+                              ("last-byte-0", "a NAL unit of type 12 that ends in 00", b"\x0c\xff\x80\0"),
+                              ("of-one-byte", "a NAL unit of one byte", b"\x0c")):
+        _units(suite, "unit-" + name, about, ["6.2.5.1", "13.2"], lambda us, u=unit: us[1].insert(0, u), good=[0, 1])
+    _units(suite, "slice-last-byte-0", "a slice that ends in 00", ["6.2.5.1"], lambda us: us[1].__setitem__(0, us[1][0] + b"\0"),
+           good=[0, 1])
     _units(suite, "first-not-idr", "the first picture of a group has slices of type 1", ["6.2.5", "13.2"],
            lambda us: us[0].__setitem__(0, _as_plain_slice(us[0][0])))
     movie, c = _two_groups()
@@ -196,6 +203,7 @@ def numbers(suite):
     plan("gap-later", "frame_num leaves one out after a picture that is no reference", (0, 1, 2), [0, 1, 2],
          references=(True, False, True))
     plan("back", "frame_num goes back", (0, 1, 0), [0, 1, 2])
+    plan("again", "frame_num of a picture is that of the reference picture before it", (0, 1, 1), [0, 1, 2])
 
 
 def everything(suite):
