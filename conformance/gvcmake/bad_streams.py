@@ -133,8 +133,6 @@ def units(suite):
              for i, luma in enumerate(lumas)]
     add_units(movie, Group([c], codes), twice, lumas, straight(2))
     suite.bad("h264-second-idr", movie, "an IDR picture inside of a group", ["6.2.5", "13.2"], ["h264"], good=[0, 1])
-    _units(suite, "forbidden-bit", "forbidden_zero_bit is 1", ["6.2.5"], lambda us: us[1].__setitem__(
-        0, bytes([us[1][0][0] | 0x80]) + us[1][0][1:]), good=[0, 1])
 
 
 def _as_plain_slice(nal):
