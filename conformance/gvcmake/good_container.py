@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Valid vectors of the container: gvc.md 4, 5 and 11."""
-from .boxes import Box, full, seal, u16, u32, u64
+from .boxes import Box, full, u16, u32, u64
 from .content import codes_of, noise
 from .fragment import close
 from .head import SYNC, Config, edit_list, file_type, handler, media_header, sample_table, track_header
