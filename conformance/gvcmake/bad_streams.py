@@ -2,8 +2,10 @@
 """Invalid vectors of H.264 streams: gvc.md 6.2."""
 from dataclasses import replace
 
+import numpy
+
 from .bits import nal_unit
-from .boxes import u16
+from .boxes import u16, u32
 from .h264 import Picture, Stream, code
 from .head import avc_config
 from .pictures import intra_pcm
@@ -56,8 +58,7 @@ def restrictions(suite):
         movie = movie_for([c])
         movie.stream = Stream(width, height)
         lumas = [draw(movie.config, [c], still_codes([c], [7])[0])]
-        from numpy import pad
-        large = pad(lumas[0], ((0, height - 48), (0, width - 16)), mode="edge")
+        large = numpy.pad(lumas[0], ((0, height - 48), (0, width - 16)), mode="edge")
         units = [code(movie.stream, Picture("I", intra_pcm(movie.stream, large), 0, 0, idr=True))]
         add_units(movie, Group([c], []), units, lumas, straight(1))
         suite.bad("h264-" + name, movie, "pictures of %d x %d samples where 16 x 48 are stated" % (width, height),
@@ -107,11 +108,6 @@ def samples(suite):
     run_edit("two-pictures", "two pictures in one sample", lambda s: s + s, ("6.2.5", "13.2"))
 
 
-def u32(value):
-    """A length."""
-    return value.to_bytes(4, "big")
-
-
 def units(suite):
     """Kinds of NAL units."""
     stream = Stream(16, 48)
@@ -140,8 +136,6 @@ def units(suite):
              for i, luma in enumerate(lumas)]
     add_units(movie, Group([c], codes), twice, lumas, straight(2))
     suite.bad("h264-second-idr", movie, "an IDR picture inside of a group", ["6.2.5", "13.2"], ["h264"], good=[0, 1])
-    _units(suite, "forbidden-bit", "forbidden_zero_bit is 1", ["6.2.5"], lambda us: us[1].__setitem__(
-        0, bytes([us[1][0][0] | 0x80]) + us[1][0][1:]), good=[0, 1])
 
 
 def _as_plain_slice(nal):

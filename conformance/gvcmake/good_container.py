@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Valid vectors of the container: gvc.md 4, 5 and 11."""
-from .boxes import Box, full, seal, u16, u32, u64
+from .boxes import Box, full, u16, u32, u64
 from .content import codes_of, noise
 from .fragment import close
 from .head import SYNC, Config, edit_list, file_type, handler, media_header, sample_table, track_header
@@ -220,11 +220,11 @@ def _sound_track():
                                                                               minf])])
 
 
-def _sound_fragment(seal_it, flip=0):
+def _sound_fragment(seal_it):
     traf = Box("traf", children=[full("tfhd", 0, 0x020000, u32(9)), full("tfdt", 1, 0, u64(0)),
                                  full("trun", 0, 0x201, u32(2, 0, 4, 4))])
     moof = Box("moof", children=[full("mfhd", 0, 0, u32(1)), traf])
-    raw = close(moof, flip) if seal_it else moof.encode()
+    raw = close(moof) if seal_it else moof.encode()
     return raw + Box("mdat", b"soundbit").encode()
 
 

@@ -6,7 +6,6 @@ import numpy
 
 from . import content, exr
 from .boxes import Box
-from .exr import attribute
 from .lossless import add_lossless, all_keyframes, keyframe, lossless_movie, plan_residuals
 from .residual import GRADIENT, LEAST_SQUARES
 from .scenes import Group, still_codes

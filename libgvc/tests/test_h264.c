@@ -459,6 +459,28 @@ static void test_parameter_sets_in_samples(void **state) {
     pictures_free(&original);
 }
 
+/* A length that no whole NAL unit follows, even where the sample ends with it. */
+static void test_units_without_bytes(void **state) {
+    (void)state;
+    pictures original;
+    gvc_coded_group group;
+    gvc_h264_options options = default_options(12);
+    pictures_make(&original, 1);
+    encode(&options, &original, &group);
+    size_t size = group.packet[0].size;
+    uint8_t *sample = malloc(size + 5);
+    assert_non_null(sample);
+    memcpy(sample, group.packet[0].data, size);
+    memset(sample + size, 0, 5);
+    assert_int_equal(decode_replaced(&group, 0, sample, size), GVC_OK);
+    assert_int_equal(decode_replaced(&group, 0, sample, size + 4), GVC_ERROR_CORRUPT);
+    sample[size + 3] = 1; /* one byte: no slice fits there */
+    assert_int_equal(decode_replaced(&group, 0, sample, size + 5), GVC_ERROR_CORRUPT);
+    free(sample);
+    gvc_coded_group_free(&group);
+    pictures_free(&original);
+}
+
 /* One sample is one picture: what follows another slice must go on with its picture. */
 static void test_two_pictures_in_a_sample(void **state) {
     (void)state;
@@ -562,6 +584,7 @@ int main(void) {
         cmocka_unit_test(test_flipped_bits),
         cmocka_unit_test(test_missing_pictures),
         cmocka_unit_test(test_parameter_sets_in_samples),
+        cmocka_unit_test(test_units_without_bytes),
         cmocka_unit_test(test_two_pictures_in_a_sample),
         cmocka_unit_test(test_damaged_config),
         cmocka_unit_test(test_arguments),
