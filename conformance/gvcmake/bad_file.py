@@ -2,6 +2,7 @@
 """Invalid vectors of the file as a whole: gvc.md 4.1, 4.10, 10.1, 10.4 and 12."""
 import struct
 
+from . import good_container
 from .boxes import Box, full, u32, u64
 from .movie import Gap, reseal, top_level
 from .scenes import Group, add_group, base, movie_for, still_codes
@@ -131,6 +132,9 @@ def checksums(suite):
     movie.fragment(1).crc_early = True
     suite.bad("crc-moof-not-last", movie, "a box stands behind gcrc in moof", ["4.1.3", "10.1.1", "4.6 moof"], ["checksums"],
               good=[0, 1])
+    movie = good_container.with_sound()
+    movie.parts.insert(1, good_container._sound_fragment(True, flip=1))
+    suite.bad("crc-of-sound", movie, "a moof of a sound track ends in a wrong gcrc", ["4.11.1"], ["checksums"], good="all")
     movie = base()
     movie.parts.insert(1, Box("zzzz", bytes(20)).encode())
     movie.edit_bytes = lambda data: data.replace(b"zzzz\0", b"zzzz\1")

@@ -49,7 +49,7 @@ def restrictions(suite):
         units = [code(movie.stream, Picture("I", intra_pcm(movie.stream, luma), 0, 0, idr=True))]
         add_units(movie, Group([c], []), units, [luma], straight(1))
         suite.bad("h264-" + name, movie, about, ["6.2.1"] + (["6.2.2"] if "cropped" in name else []), ["h264"],
-                  "any" if "profile" in name else "corrupt")
+                  "unsupported" if "profile" in name else "corrupt")
     c = chart(16, (0, 1, 1))
     movie = movie_for([c], size=(32, 32), frame_mbs_only=0)
     add_group(movie, Group([c], still_codes([c], [7])))
@@ -76,7 +76,7 @@ def configurations(suite):
         movie.edit_moov = on_moov
         suite.bad("avcC-" + name, movie, about, ["6.2.4", "4.4 avcC"], ["h264"], error)
     changed("version-2", "configurationVersion 2", lambda f, s: b"\2" + f[1:])
-    changed("profile", "AVCProfileIndication 100", lambda f, s: f[:1] + b"\x64" + f[2:], "any")
+    changed("profile", "AVCProfileIndication 100", lambda f, s: f[:1] + b"\x64" + f[2:], "unsupported")
     for size in (1, 2):
         changed("lengths-%d" % size, "lengthSizeMinusOne %d" % (size - 1), lambda f, s, n=size: f[:4] + bytes([0xFB + n]) + f[5:])
     sets = (("no-sps", [], None), ("no-pps", None, []), ("two-sps", 2, None), ("two-pps", None, 2))
@@ -104,7 +104,7 @@ def samples(suite):
     run_edit("length-0", "a NAL unit of no bytes", lambda s: s + u32(0))
     run_edit("bytes-behind", "three bytes behind the last NAL unit", lambda s: s + b"\0\0\0")
     run_edit("start-code", "a sample with a start code instead of lengths", lambda s: b"\0\0\0\1" + s[4:])
-    run_edit("cut-slice", "a slice that ends within its macroblocks", lambda s: u32(900) + s[4:904], ("6.2.5", "6.2.6"))
+    run_edit("cut-slice", "a slice that ends within its macroblocks", lambda s: u32(900) + s[4:904], ("6.2.5.2",))
     run_edit("two-pictures", "two pictures in one sample", lambda s: s + s, ("6.2.5", "13.2"))
 
 
@@ -136,6 +136,8 @@ def units(suite):
              for i, luma in enumerate(lumas)]
     add_units(movie, Group([c], codes), twice, lumas, straight(2))
     suite.bad("h264-second-idr", movie, "an IDR picture inside of a group", ["6.2.5", "13.2"], ["h264"], good=[0, 1])
+    _units(suite, "forbidden-bit", "forbidden_zero_bit is 1", ["6.2.5"], lambda us: us[1].__setitem__(
+        0, bytes([us[1][0][0] | 0x80]) + us[1][0][1:]), good=[0, 1])
 
 
 def _as_plain_slice(nal):
@@ -169,10 +171,10 @@ def slices(suite):
         suite.bad("h264-slices-" + name, _group_of(pictures_of), about, list(clauses), ["h264"], good=[0])
     make("swapped", "slices in another order", lambda n, s, l: [n[0], n[2], n[1]])
     make("twice", "a slice stands twice", lambda n, s, l: [n[0], n[1], n[1], n[2]])
-    make("first-missing", "the first slice is missing", lambda n, s, l: n[1:], ("6.2.5", "6.2.6"))
+    make("first-missing", "the first slice is missing", lambda n, s, l: n[1:], ("6.2.5", "6.2.5.2"))
     make("middle-missing", "a slice in the middle is missing: macroblocks are not coded", lambda n, s, l: [n[0], n[2]],
-         ("6.2.5", "6.2.6"))
-    make("last-missing", "the last slice is missing", lambda n, s, l: n[:2], ("6.2.5", "6.2.6"))
+         ("6.2.5.2",))
+    make("last-missing", "the last slice is missing", lambda n, s, l: n[:2], ("6.2.5.2",))
     make("reference-differs", "nal_ref_idc is 0 in one slice", lambda n, s, l: [n[0], code(s, replace(
         whole(s, l), reference=False))[1], n[2]])
     make("types-differ", "a slice of type 1 in an IDR picture", lambda n, s, l: [n[0], code(s, replace(whole(s, l), idr=False))[1],
@@ -200,7 +202,20 @@ def numbers(suite):
     plan("again", "frame_num of a picture is that of the reference picture before it", (0, 1, 1), [0, 1, 2])
 
 
+def output_order(suite):
+    """Pictures that H.264 outputs in another order than they are presented (6.2.7)."""
+    movie, c = _two_groups()
+    codes = still_codes([c], [7, 8, 9])
+    lumas = [draw(movie.config, [c], x) for x in codes]
+    coded = [code(movie.stream, Picture(kind, intra_pcm(movie.stream, lumas[shown]), i, 2 * i, idr=i == 0))
+             for i, (kind, shown) in enumerate((("I", 0), ("P", 2), ("P", 1)))]
+    movie.config.declared_frames = 4
+    add_units(movie, Group([c], codes), coded, lumas, [("I", 0), ("P", 2), ("P", 1)])
+    suite.bad("h264-output-order", movie, "the second picture is output before the third, but presented after it",
+              ["6.2.7", "13.2"], ["h264"], good=[0, 1])
+
+
 def everything(suite):
     """All of them."""
-    for part in (restrictions, configurations, samples, units, slices, numbers):
+    for part in (restrictions, configurations, samples, units, slices, numbers, output_order):
         part(suite)

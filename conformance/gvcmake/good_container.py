@@ -220,11 +220,11 @@ def _sound_track():
                                                                               minf])])
 
 
-def _sound_fragment(seal_it):
+def _sound_fragment(seal_it, flip=0):
     traf = Box("traf", children=[full("tfhd", 0, 0x020000, u32(9)), full("tfdt", 1, 0, u64(0)),
                                  full("trun", 0, 0x201, u32(2, 0, 4, 4))])
     moof = Box("moof", children=[full("mfhd", 0, 0, u32(1)), traf])
-    raw = close(moof) if seal_it else moof.encode()
+    raw = close(moof, flip) if seal_it else moof.encode()
     return raw + Box("mdat", b"soundbit").encode()
 
 

@@ -129,7 +129,7 @@ static gvc_result read_edit(const gvc_box *trak, uint64_t *media_time, gvc_error
     *media_time = version == 1 ? gvc_read_u64(&elst.content) : gvc_read_u32(&elst.content);
     uint64_t empty = version == 1 ? UINT64_MAX : UINT32_MAX;
     uint32_t rate = gvc_read_u32(&elst.content);
-    GVC_TRY(gvc_box_check(&elst, error));
+    if (count == 1) GVC_TRY(gvc_box_check(&elst, error));
     if (count == 1 && *media_time != empty && rate == 0x10000) return GVC_OK;
     return gvc_box_fail(&elst, error, GVC_ERROR_UNSUPPORTED,
                         "an edit list that does more than shift the beginning");
