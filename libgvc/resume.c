@@ -98,6 +98,7 @@ static void format_options(const gvc_encode_options *o, char *text, size_t size)
     append_number(text, size, "lambda", o->lambda);
     append_number(text, size, "interior", o->interior_share);
     append_number(text, size, "registration", o->registration);
+    append_number(text, size, "longest-edge", o->longest_edge);
     for (char *c = text; *c; c++) { /* the unit may hold anything */
         if ((unsigned char)*c < ' ') *c = '?';
     }
