@@ -172,7 +172,8 @@ static gvc_result is_there(const gvc_reader *file, size_t index, uint64_t begin,
         if (!demux->has_track[kind]) continue;
         for (uint32_t i = 0; i < fragment->frame_count; i++) {
             gvc_result result = gvc_demux_read(demux, &file->io, (gvc_track_kind)kind,
-                                               fragment->first_sample[kind] + i, scratch, error);
+                                               fragment->first_sample[kind] + i,
+                                               gvc_reader_room(file), scratch, error);
             if (result == GVC_ERROR_CORRUPT) return GVC_OK;
             GVC_TRY(result);
         }
