@@ -25,6 +25,7 @@ for name in "$@"; do
   for option in max_len timeout; do
     value=$(sed -n "s/^$option = //p" "$build/fuzz_$name.options")
     set -- "$@" "-$option=$value"
+    [ $option = max_len ] || set -- "$@" "-report_slow_units=$value"
   done
   nice -n 19 "$build/fuzz_$name" "$@" "$corpus" >"$build/$name.log" 2>&1 || found=1
   runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$build/$name.log")
