@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/** @file make_seeds.c  Writes valid seed inputs for fuzz_container into the folder given, and, for
- * the replay test, each of them with single bytes changed. */
+/** @file make_seeds.c  Writes valid seed inputs for fuzz_container and fuzz_record into the
+ * folders given, and, for the replay tests, each of them with single bytes changed. */
 #include "container/shape_record.h"
 #include "container/writer.h"
 #include "seed.h"
@@ -44,6 +44,45 @@ static gvc_shape make_star(star_parts *parts) {
                                      .edge = parts->edge,
                                      .sides = {SIZE, 8, 4, parts->steps, 8, parts->side}};
     return (gvc_shape){.chart_count = 1, .chart = &parts->chart};
+}
+
+/** Two stars, the second one higher up in the plane. */
+static int save_two(const char *folder, bool changed) {
+    star_parts parts[2];
+    gvc_chart_shape chart[2];
+    gvc_shape_frame facts = {.same = false};
+    gvc_buffer record = {0};
+    for (unsigned i = 0; i < 2; i++) chart[i] = *make_star(&parts[i]).chart;
+    chart[0].x = chart[0].y = SIZE;
+    gvc_shape two = {.segment = 1, .chart_count = 2, .chart = chart};
+    int failed = gvc_shape_record_write(&two, &facts, &record, NULL) != GVC_OK ||
+                 seed_save(folder, "record_two", SEED_PLAIN, &record);
+    if (changed) failed |= seed_save_changed(folder, "changed_two", SEED_PLAIN, &record, 1);
+    gvc_buffer_free(&record);
+    return failed;
+}
+
+/** A torus: one node, two loops. */
+static int save_torus(const char *folder, bool changed) {
+    uint32_t steps[2] = {SIZE - 1, SIZE - 1};
+    gvc_side side[4] = {{0, false}, {1, false}, {0, true}, {1, true}};
+    gvc_shape_node node[1] = {{0, 0}};
+    gvc_shape_edge edge[2] = {{{0, 0}}, {{0, 0}}};
+    gvc_chart_shape chart = {.genus = 1,
+                             .step = 0.5,
+                             .node_count = 1,
+                             .edge_count = 2,
+                             .node = node,
+                             .edge = edge,
+                             .sides = {SIZE, 5, 2, steps, 4, side}};
+    gvc_shape torus = {.chart_count = 1, .chart = &chart};
+    gvc_shape_frame facts = {.has_preview = true};
+    gvc_buffer record = {0};
+    int failed = gvc_shape_record_write(&torus, &facts, &record, NULL) != GVC_OK ||
+                 seed_save(folder, "record_torus", SEED_PLAIN, &record);
+    if (changed) failed |= seed_save_changed(folder, "changed_torus", SEED_PLAIN, &record, 1);
+    gvc_buffer_free(&record);
+    return failed;
 }
 
 /** Which tracks of geometry images a file has. */
@@ -94,10 +133,26 @@ static gvc_result make_file(tracks has, const gvc_buffer *first, const gvc_buffe
     return result;
 }
 
+static int save(const char *files, const char *records, bool changed, gvc_buffer *file,
+                gvc_buffer *exact, gvc_buffer *both, gvc_buffer *first, gvc_buffer *same) {
+    int failed = seed_save(files, "video.gvc", SEED_PLAIN, file);
+    failed |= seed_save(files, "exact.gvc", SEED_PLAIN, exact);
+    failed |= seed_save(files, "both.gvc", SEED_PLAIN, both);
+    failed |= seed_save(records, "record", SEED_PLAIN, first);
+    failed |= seed_save(records, "record_same", SEED_PLAIN, same);
+    failed |= save_two(records, changed) | save_torus(records, changed);
+    if (changed) {
+        failed |= seed_save_changed(files, "changed_video", SEED_PLAIN, file, 7);
+        failed |= seed_save_changed(files, "changed_exact", SEED_PLAIN, exact, 11);
+        failed |= seed_save_changed(records, "changed_record", SEED_PLAIN, first, 1);
+    }
+    return failed;
+}
+
 int main(int argc, char **argv) {
-    bool changed = argc == 3 && strcmp(argv[2], "--changed") == 0;
-    if (argc != 2 && !changed) {
-        fprintf(stderr, "usage: make_seeds FOLDER [--changed]\n");
+    bool changed = argc == 4 && strcmp(argv[3], "--changed") == 0;
+    if (argc != 3 && !changed) {
+        fprintf(stderr, "usage: make_seeds CONTAINER_FOLDER RECORD_FOLDER [--changed]\n");
         return 2;
     }
     star_parts parts;
@@ -111,21 +166,8 @@ int main(int argc, char **argv) {
                  make_file((tracks){false, true}, &first, &same, &exact) != GVC_OK ||
                  make_file((tracks){true, true}, &first, &same, &both) != GVC_OK || file.failed ||
                  exact.failed || both.failed;
-    if (!failed) {
-        failed |= seed_save(argv[1], "file", 0, &file);
-        failed |= seed_save(argv[1], "file_keep_going", 1, &file);
-        failed |= seed_save(argv[1], "exact", 0, &exact);
-        failed |= seed_save(argv[1], "exact_keep_going", 1, &exact);
-        failed |= seed_save(argv[1], "both", 1, &both);
-        failed |= seed_save(argv[1], "record", 2, &first);
-        failed |= seed_save(argv[1], "record_same", 2, &same);
-        if (changed) {
-            failed |= seed_save_changed(argv[1], "changed_file", 1, &file, 7);
-            failed |= seed_save_changed(argv[1], "changed_exact", 1, &exact, 11);
-            failed |= seed_save_changed(argv[1], "changed_record", 2, &first, 1);
-        }
-    }
-    if (failed) fprintf(stderr, "make_seeds: cannot write to %s\n", argv[1]);
+    if (!failed) failed = save(argv[1], argv[2], changed, &file, &exact, &both, &first, &same);
+    if (failed) fprintf(stderr, "make_seeds: cannot write to %s, %s\n", argv[1], argv[2]);
     gvc_buffer_free(&first);
     gvc_buffer_free(&same);
     gvc_buffer_free(&file);

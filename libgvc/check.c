@@ -102,7 +102,7 @@ static gvc_result check_samples(checker *c, const gvc_fragment_entry *fragment, 
                              .frame_count = 1};
         gvc_error_init(&defect.error);
         gvc_result result = gvc_demux_read(demux, &c->reader->io, (gvc_track_kind)kind, index,
-                                           buffer, &defect.error);
+                                           gvc_reader_room(c->reader), buffer, &defect.error);
         if (result == GVC_ERROR_CORRUPT) {
             GVC_TRY(tell(c, &defect, error));
         } else if (result != GVC_OK) {

@@ -19,6 +19,8 @@
 
 #define NO_FRAGMENT SIZE_MAX
 #define NO_FRAME UINT64_MAX
+#define SAMPLE_SHARE 16u /* of the memory for images is for a sample as it stands in the file */
+#define FIXED_MEMORY (UINT64_C(1) << 19) /* contexts of zstd and the like */
 
 struct gvc_decoder {
     const gvc_reader *reader;
@@ -31,7 +33,8 @@ struct gvc_decoder {
 
     gvc_h264_decoder *h264; /* only if not */
     gvc_buffer sample;
-    uint16_t *luma; /* last picture received: 3 planes, one above the other */
+    uint64_t most_bytes; /* that it may have */
+    uint16_t *luma;      /* last picture received: 3 planes, one above the other */
     gvc_picture_layout layout;
     size_t sent;     /* samples of it fed to the H.264 decoder, or left out because damaged */
     size_t end;      /* samples of it that can be fed: all, until one proves to be of no use */
@@ -58,28 +61,32 @@ static void forget_fragment(gvc_decoder *decoder) {
     forget_shape(decoder);
 }
 
-/* Bytes held while one frame is decoded: the picture here and, at worst, 17 times in the H.264
- * decoder's reference and reorder buffers (ISO/IEC 14496-10 A.3.1: at most 16 frames), welds, codes
- * and the mesh. */
-static uint64_t memory_needed(const gvc_config *config, bool is_exact) {
+/* Bytes held at most while one frame is decoded, besides images and what codecs hold, by sample of
+ * a plane; charts do not overlap, so all of them have no more samples. */
+static uint64_t surface_memory(const gvc_config *config) {
+    enum {
+        WELD = sizeof(uint32_t) + 4, /* vertex; the rest is by border sample, at most 60 of 256 */
+        CODES = 2 * 3 * sizeof(uint16_t) + 3 * sizeof(uint16_t), /* before and after, handed out */
+        MESH = 3 * sizeof(double) + 2 * 3 * sizeof(uint32_t)
+    };
     uint64_t samples = (uint64_t)config->picture_width * config->plane_height;
-    uint64_t picture = 3 * samples * sizeof(uint16_t);
-    uint64_t per_sample =
-        sizeof(uint32_t) + 3 * sizeof(uint16_t) + 3 * sizeof(double) + 2 * 3 * sizeof(uint32_t);
-    uint64_t images =
-        is_exact ? gvc_exact_decoder_memory(config) : picture + 17 * (picture * 3 / 2);
-    return images + samples * per_sample;
+    return samples * (WELD + CODES + MESH) + gvc_shape_record_memory(config) + FIXED_MEMORY;
 }
 
-static gvc_result open_video(gvc_decoder *decoder, gvc_error *error) {
+/* `memory` is what is left for pictures and packets. */
+static gvc_result open_video(gvc_decoder *decoder, uint64_t memory, gvc_error *error) {
     const gvc_demux *demux = &decoder->reader->demux;
     const gvc_config *config = &demux->config;
     decoder->layout = (gvc_picture_layout){config->picture_width, config->plane_height};
-    decoder->luma =
-        gvc_alloc((size_t)config->picture_width * config->plane_height * 3, sizeof *decoder->luma);
-    if (!decoder->luma) return gvc_fail_memory(error);
-    return gvc_h264_decoder_create(demux->avc_config, demux->avc_config_size, config->picture_width,
-                                   3 * config->plane_height, &decoder->h264, error);
+    uint64_t samples = (uint64_t)config->picture_width * config->plane_height * 3;
+    uint64_t luma = samples * sizeof *decoder->luma;
+    memory = memory > luma ? memory - luma : 0;
+    decoder->most_bytes = memory / SAMPLE_SHARE;
+    GVC_TRY(gvc_h264_decoder_create(demux->avc_config, demux->avc_config_size,
+                                    config->picture_width, 3 * config->plane_height,
+                                    memory - decoder->most_bytes, &decoder->h264, error));
+    decoder->luma = gvc_alloc((size_t)samples, sizeof *decoder->luma);
+    return decoder->luma ? GVC_OK : gvc_fail_memory(error);
 }
 
 gvc_result gvc_decoder_create(const gvc_reader *reader, gvc_decoder **decoder, gvc_error *error) {
@@ -90,19 +97,22 @@ gvc_result gvc_decoder_create(const gvc_reader *reader, gvc_decoder **decoder, g
         return gvc_fail(error, GVC_ERROR_ARGUMENT, "the file has no preview");
     }
     bool is_exact = reader->demux.has_track[GVC_TRACK_EXACT] && !preview;
-    uint64_t needed = memory_needed(config, is_exact);
-    if (needed > reader->options.max_memory) {
+    uint64_t needed = reader->demux.held + surface_memory(config);
+    uint64_t images = is_exact ? gvc_exact_decoder_memory(config) : 0;
+    if (needed + images > reader->options.max_memory) {
         return gvc_fail(error, GVC_ERROR_LIMIT,
                         "decoding %u x %u pictures may take %llu MiB, more than the limit",
                         config->picture_width, 3 * config->plane_height,
-                        (unsigned long long)(needed >> 20));
+                        (unsigned long long)((needed + images) >> 20));
     }
+    uint64_t left = reader->options.max_memory - needed - images;
     gvc_decoder *made = gvc_alloc(1, sizeof *made);
     if (!made) return gvc_fail_memory(error);
     made->reader = reader;
     made->fragment = NO_FRAGMENT;
     made->is_exact = is_exact;
-    gvc_result result = is_exact ? GVC_OK : open_video(made, error);
+    made->most_bytes = made->exact.most_bytes = left;
+    gvc_result result = is_exact ? GVC_OK : open_video(made, left, error);
     if (result != GVC_OK) {
         gvc_decoder_destroy(&made);
         return result;
@@ -149,8 +159,13 @@ static void rewind_video(gvc_decoder *decoder) {
 /* The codec gave up. What it had taken before can be had if it is told that the group ends there.
  */
 static gvc_result end_before(gvc_decoder *decoder, const gvc_error *defect, gvc_error *error) {
+    if (defect->code != GVC_ERROR_CORRUPT) { /* says nothing about the file */
+        if (error) *error = *defect;
+        return defect->code;
+    }
     note(decoder, defect);
-    if (defect->code != GVC_ERROR_CORRUPT || decoder->sent == 0) {
+    if (decoder->sent == 0) {
+        decoder->end = 0; /* no picture can be had */
         return tell_defect(decoder, error);
     }
     size_t fewer = decoder->end - (decoder->sent < decoder->end ? decoder->sent : decoder->end - 1);
@@ -175,7 +190,7 @@ static gvc_result feed(gvc_decoder *decoder, gvc_error *error) {
     size_t index = fragment->first_sample[GVC_TRACK_GEOMETRY] + decoder->sent;
     const gvc_sample_entry *sample = &demux->sample[GVC_TRACK_GEOMETRY][index];
     gvc_result result = gvc_demux_read(demux, &decoder->reader->io, GVC_TRACK_GEOMETRY, index,
-                                       &decoder->sample, &defect);
+                                       decoder->most_bytes, &decoder->sample, &defect);
     if (result == GVC_ERROR_CORRUPT && decoder->sent > 0) {
         note(decoder, &defect);
         decoder->sent++;
@@ -226,6 +241,7 @@ static gvc_result step(gvc_decoder *decoder, gvc_error *error) {
 /* Leaves the picture of `frame` in decoder->luma. */
 static gvc_result seek_picture(gvc_decoder *decoder, uint64_t frame, gvc_error *error) {
     if (decoder->shown == frame) return GVC_OK;
+    if (decoder->end == 0) return tell_defect(decoder, error);
     if (decoder->next_frame > frame) rewind_video(decoder);
     while (decoder->next_frame <= frame) GVC_TRY(step(decoder, error));
     return decoder->shown == frame ? GVC_OK : tell_defect(decoder, error);

@@ -22,7 +22,7 @@ void gvc_exact_decoder_free(gvc_exact_decoder *decoder) {
     gvc_buffer_free(&decoder->sample);
     free(decoder->codes);
     free(decoder->before);
-    *decoder = (gvc_exact_decoder){0};
+    *decoder = (gvc_exact_decoder){.most_bytes = decoder->most_bytes};
 }
 
 gvc_result gvc_exact_decoder_begin(gvc_exact_decoder *decoder, const gvc_shape *shape,
@@ -83,7 +83,8 @@ static gvc_result decode_next(gvc_exact_decoder *decoder, const gvc_reader *read
     const gvc_demux *demux = &reader->demux;
     size_t index = fragment->first_sample[GVC_TRACK_EXACT] + decoder->next;
     const gvc_sample_entry *entry = &demux->sample[GVC_TRACK_EXACT][index];
-    GVC_TRY(gvc_demux_read(demux, &reader->io, GVC_TRACK_EXACT, index, &decoder->sample, error));
+    GVC_TRY(gvc_demux_read(demux, &reader->io, GVC_TRACK_EXACT, index, decoder->most_bytes,
+                           &decoder->sample, error));
     uint16_t *codes = decoder->before;
     decoder->before = decoder->codes;
     decoder->codes = codes;

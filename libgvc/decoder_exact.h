@@ -8,6 +8,7 @@
 
 /** Zero-initialise; free with gvc_exact_decoder_free. */
 typedef struct gvc_exact_decoder {
+    uint64_t most_bytes; /**< that a sample may have; set beforehand */
     gvc_buffer sample;
     uint16_t *codes, *before; /**< of the last frame decoded and of the one before it: for each
                                  chart 3 planes of size * size codes, one chart after the other */

@@ -74,6 +74,7 @@ static gvc_result check_options(const gvc_encode_options *o, const gvc_source *s
     if (!(o->lambda >= 0 && o->lambda <= 1)) wrong = "lambda must be between 0 and 1";
     if (!(o->interior_share >= 0 && o->interior_share <= 1))
         wrong = "the interior's share must be between 0 and 1";
+    if (!(o->longest_edge > 0)) wrong = "the longest edge must be positive";
     return wrong ? gvc_fail(error, GVC_ERROR_ARGUMENT, "%s", wrong) : GVC_OK;
 }
 

@@ -19,6 +19,12 @@ static inline bool gvc_reader_has_preview(const gvc_reader *reader) {
     return reader->demux.has_track[GVC_TRACK_GEOMETRY] && reader->demux.has_track[GVC_TRACK_EXACT];
 }
 
+/** Bytes of max_memory that the index of the file leaves. */
+static inline uint64_t gvc_reader_room(const gvc_reader *reader) {
+    uint64_t held = reader->demux.held, most = reader->options.max_memory;
+    return held < most ? most - held : 0;
+}
+
 /** The digest of what the reader's options ask to be decoded. */
 const uint8_t *gvc_reader_digest(const gvc_reader *reader, const gvc_shape_frame *facts);
 

@@ -18,7 +18,8 @@ void gvc_encode_options_init(gvc_encode_options *options) {
                                     .shortest_weight = 0.05,
                                     .lambda = 0.95,
                                     .interior_share = 0.8,
-                                    .registration = true};
+                                    .registration = true,
+                                    .longest_edge = 0.024};
 }
 
 void gvc_read_options_init(gvc_read_options *options) {

@@ -233,9 +233,11 @@ static gvc_result read_record(const gvc_reader *reader, size_t index, gvc_shape 
                               gvc_shape_frame *facts, gvc_error *error) {
     const gvc_demux *demux = &reader->demux;
     gvc_buffer buffer = {0};
-    uint64_t limit = reader->options.max_memory;
-    gvc_result result = gvc_demux_read(demux, &reader->io, GVC_TRACK_SHAPE, index, &buffer, error);
+    uint64_t limit = gvc_reader_room(reader), most = gvc_shape_record_bytes(&demux->config);
+    gvc_result result = gvc_demux_read(demux, &reader->io, GVC_TRACK_SHAPE, index,
+                                       limit < most ? limit : most, &buffer, error);
     if (result == GVC_OK) {
+        limit -= buffer.size;
         result =
             gvc_shape_record_read(buffer.data, buffer.size, &demux->config,
                                   limit > SIZE_MAX ? SIZE_MAX : (size_t)limit, shape, facts, error);

@@ -6,6 +6,7 @@
  * what is good; nothing is decoded.
  */
 #include "base/memory.h"
+#include "container/shape_layout.h"
 #include "container/writer.h"
 #include "file.h"
 
@@ -30,6 +31,7 @@ typedef struct good_part {
     gvc_sample *sample[GVC_TRACK_KINDS];
     bool *good[GVC_TRACK_KINDS];
     bool whole;
+    uint64_t room; /* bytes that samples may still take */
 } good_part;
 
 static void free_part(good_part *part) {
@@ -50,6 +52,12 @@ static size_t sample_index(const gvc_demux *demux, const gvc_fragment_entry *fra
     return gvc_demux_sample_of(demux, fragment, (gvc_track_kind)kind, fragment->first_frame + i);
 }
 
+/* A record that is whole where it should say "same", or the reverse, is of no use, whatever its
+ * checksum (7.1.2). */
+static bool is_in_place(unsigned kind, size_t i, const gvc_buffer *data) {
+    return kind != GVC_TRACK_SHAPE || !(data->data[0] & GVC_RECORD_SAME) == (i == 0);
+}
+
 static gvc_result read_track(const gvc_reader *reader, const gvc_fragment_entry *fragment,
                              unsigned kind, good_part *part, gvc_error *error) {
     const gvc_demux *demux = &reader->demux;
@@ -64,15 +72,17 @@ static gvc_result read_track(const gvc_reader *reader, const gvc_fragment_entry 
         gvc_buffer *data = &part->data[kind][i];
         gvc_error defect;
         gvc_error_init(&defect);
-        gvc_result result =
-            gvc_demux_read(demux, &reader->io, (gvc_track_kind)kind, index, data, &defect);
+        gvc_result result = gvc_demux_read(demux, &reader->io, (gvc_track_kind)kind, index,
+                                           part->room, data, &defect);
+        part->room -= data->size;
         if (result != GVC_OK && result != GVC_ERROR_CORRUPT) {
             if (error) *error = defect;
             return result;
         }
         uint64_t shown = demux->sample[kind][index].presentation - fragment->first_frame;
-        part->good[kind][i] = result == GVC_OK;
-        part->whole = part->whole && result == GVC_OK;
+        bool good = result == GVC_OK && is_in_place(kind, i, data);
+        part->good[kind][i] = good;
+        part->whole = part->whole && good;
         part->sample[kind][i] =
             (gvc_sample){.data = data->data,
                          .size = data->size,
@@ -126,6 +136,9 @@ static gvc_result save_fragment(repairer *r, size_t index, gvc_error *error) {
     const gvc_demux *demux = &r->reader->demux;
     const gvc_fragment_entry *fragment = &demux->fragment[index];
     good_part part = {.count = fragment->frame_count, .whole = true};
+    uint64_t lists = fragment->frame_count * (sizeof(gvc_buffer) + sizeof(gvc_sample) + 1);
+    part.room = gvc_reader_room(r->reader);
+    part.room -= 3 * lists < part.room ? 3 * lists : part.room;
     gvc_result result = leave_gap(r, fragment->first_frame, error);
     for (unsigned kind = 0; kind < GVC_TRACK_KINDS && result == GVC_OK; kind++) {
         if (demux->has_track[kind]) result = read_track(r->reader, fragment, kind, &part, error);

@@ -98,6 +98,7 @@ static void format_options(const gvc_encode_options *o, char *text, size_t size)
     append_number(text, size, "lambda", o->lambda);
     append_number(text, size, "interior", o->interior_share);
     append_number(text, size, "registration", o->registration);
+    append_number(text, size, "longest-edge", o->longest_edge);
     for (char *c = text; *c; c++) { /* the unit may hold anything */
         if ((unsigned char)*c < ' ') *c = '?';
     }
@@ -171,7 +172,8 @@ static gvc_result is_there(const gvc_reader *file, size_t index, uint64_t begin,
         if (!demux->has_track[kind]) continue;
         for (uint32_t i = 0; i < fragment->frame_count; i++) {
             gvc_result result = gvc_demux_read(demux, &file->io, (gvc_track_kind)kind,
-                                               fragment->first_sample[kind] + i, scratch, error);
+                                               fragment->first_sample[kind] + i,
+                                               gvc_reader_room(file), scratch, error);
             if (result == GVC_ERROR_CORRUPT) return GVC_OK;
             GVC_TRY(result);
         }

@@ -140,7 +140,7 @@ cleanup:
 
 static gvc_result measure_frame(bench *b, const gvc_source *source, uint64_t number,
                                 gvc_error *error) {
-    gvc_frame_work work = {.number = number};
+    gvc_frame_work work = {.number = number, .longest_edge = GVC_LONGEST_EDGE};
     gvc_result result = GVC_OK;
     bool kept = true;
     double clock = compare_thread_seconds();

@@ -37,9 +37,10 @@ static void skip_picture_order(gvc_nal_bits *bits) {
 
 /* Width and height after cropping (Equations 7-13 to 7-22, 4:2:0, frames only); false if they make
  * no sense. */
-static bool read_picture_size(gvc_nal_bits *bits, uint64_t *width, uint64_t *height) {
+static bool read_picture_size(gvc_nal_bits *bits, uint64_t *width, uint64_t *height, bool *excess) {
     *width = ((uint64_t)gvc_nal_ue(bits) + 1) * 16;
     *height = ((uint64_t)gvc_nal_ue(bits) + 1) * 16;
+    *excess = false;
     if (gvc_nal_bit(bits) != 1) return false; /* frame_mbs_only_flag */
     gvc_nal_bit(bits);                        /* direct_8x8_inference_flag */
     if (gvc_nal_bit(bits)) {
@@ -48,13 +49,14 @@ static bool read_picture_size(gvc_nal_bits *bits, uint64_t *width, uint64_t *hei
         if (2 * (left + right) >= *width || 2 * (top + bottom) >= *height) return false;
         *width -= 2 * (left + right);
         *height -= 2 * (top + bottom);
+        *excess = 2 * (left + right) >= 16 || 2 * (top + bottom) >= 16;
     }
     return !bits->failed;
 }
 
 /* seq_parameter_set_data(), 7.3.2.1.1, as far as the picture size. */
 static gvc_result check_sps(const uint8_t *nal, size_t size, uint32_t width, uint32_t height,
-                            unsigned *frame_num_bits_out, gvc_error *error) {
+                            gvc_avc_facts *facts, gvc_error *error) {
     uint8_t payload[MAX_SPS_SIZE];
     if (size < 5 || size > sizeof payload || (nal[0] & 0x9f) != NAL_SPS) {
         return gvc_fail(error, GVC_ERROR_CORRUPT, "the sequence parameter set is damaged");
@@ -84,7 +86,7 @@ static gvc_result check_sps(const uint8_t *nal, size_t size, uint32_t width, uin
     uint32_t references = gvc_nal_ue(&bits);
     uint32_t gaps = gvc_nal_bit(&bits); /* gaps_in_frame_num_value_allowed_flag */
     uint64_t coded_width, coded_height;
-    bool sized = read_picture_size(&bits, &coded_width, &coded_height);
+    bool excess, sized = read_picture_size(&bits, &coded_width, &coded_height, &excess);
     if (!sized || bits.failed || references > 16 || frame_num_bits > 16 || gaps) {
         return gvc_fail(error, GVC_ERROR_CORRUPT, "the sequence parameter set is damaged");
     }
@@ -93,12 +95,17 @@ static gvc_result check_sps(const uint8_t *nal, size_t size, uint32_t width, uin
                         (unsigned long long)coded_width, (unsigned long long)coded_height,
                         (unsigned)width, (unsigned)height);
     }
-    *frame_num_bits_out = frame_num_bits;
+    if (excess) {
+        return gvc_fail(error, GVC_ERROR_LIMIT,
+                        "pictures of %u x %u are cropped from much larger ones", (unsigned)width,
+                        (unsigned)height);
+    }
+    *facts = (gvc_avc_facts){.frame_num_bits = frame_num_bits, .references = references};
     return GVC_OK;
 }
 
 gvc_result gvc_avc_config_check(const uint8_t *config, size_t size, uint32_t width, uint32_t height,
-                                unsigned *frame_num_bits, gvc_error *error) {
+                                gvc_avc_facts *facts, gvc_error *error) {
     gvc_cursor in = gvc_cursor_make(config, size);
     uint8_t version = gvc_read_u8(&in);
     uint8_t profile = gvc_read_u8(&in);
@@ -119,5 +126,5 @@ gvc_result gvc_avc_config_check(const uint8_t *config, size_t size, uint32_t wid
                         (unsigned)profile);
     }
     /* Fields for the High profiles follow; old muxers leave them out, so they say nothing new. */
-    return check_sps(sps, sps_size, width, height, frame_num_bits, error);
+    return check_sps(sps, sps_size, width, height, facts, error);
 }

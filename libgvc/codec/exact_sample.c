@@ -23,7 +23,8 @@ gvc_result gvc_exact_image_decode(const uint8_t *data, size_t data_size, uint32_
 }
 
 uint64_t gvc_exact_image_memory(uint32_t size) {
-    /* 3.1 kB a column of the predictor's sums, an image of zeros in place of one to refer to, and a
-     * chunk of lines of an OpenEXR file, packed and unpacked */
-    return (uint64_t)size * (3100 + 6 * (uint64_t)size + 4 * 16 * 12);
+    /* the header of an OpenEXR file as the library keeps it, 3.1 kB a column of the predictor's
+     * sums, an image of zeros in place of one to refer to, and a chunk of lines of an OpenEXR file,
+     * packed and unpacked */
+    return (uint64_t)size * (3100 + 6 * (uint64_t)size + 4 * 16 * 12) + GVC_EXR_HEADER_MEMORY;
 }

@@ -70,4 +70,9 @@ gvc_result gvc_exr_read_text(const uint8_t *data, size_t data_size, const char *
 gvc_result gvc_exr_decode(const uint8_t *data, size_t data_size, uint32_t size, uint16_t *codes,
                           gvc_exr_facts *facts, gvc_error *error);
 
+/** A header of more bytes is refused (GVC_ERROR_LIMIT): those written here have less than 500, and
+ * 130,000 with a whole shape record in it. The library keeps up to eight times as much. */
+#define GVC_EXR_MAX_HEADER (UINT32_C(1) << 18)
+#define GVC_EXR_HEADER_MEMORY (8 * (uint64_t)GVC_EXR_MAX_HEADER)
+
 #endif

@@ -60,6 +60,43 @@ static gvc_result check_kind(const uint8_t *data, size_t size, gvc_error *error)
     return GVC_OK;
 }
 
+/* Passes a text of at most 255 bytes and its zero; false if there is none. An empty one sets
+ * `*empty`. */
+static bool pass_name(gvc_cursor *in, bool *empty) {
+    size_t left = gvc_cursor_left(in);
+    const uint8_t *begin = in->data + in->position;
+    const uint8_t *zero = memchr(begin, 0, left < 256 ? left : 256);
+    if (!zero) return false;
+    *empty = zero == begin;
+    gvc_skip(in, (size_t)(zero - begin) + 1);
+    return true;
+}
+
+/* The library reads all attributes into memory, whatever they are: before that, their size. */
+static gvc_result check_header(const uint8_t *data, size_t size, gvc_error *error) {
+    gvc_cursor in = gvc_cursor_make(data, size);
+    gvc_skip(&in, sizeof plain_file);
+    for (;;) {
+        bool end = false, ignored;
+        bool named = pass_name(&in, &end);
+        if (named && !end) named = pass_name(&in, &ignored);
+        const uint8_t *bytes = named && !end ? gvc_read_bytes(&in, 4) : NULL;
+        if (bytes) {
+            gvc_skip(&in, (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 |
+                              (uint32_t)bytes[3] << 24);
+        }
+        if (!named || in.failed) {
+            return gvc_fail(error, GVC_ERROR_CORRUPT, "the header of the OpenEXR file is damaged");
+        }
+        if (in.position > GVC_EXR_MAX_HEADER) {
+            return gvc_fail(error, GVC_ERROR_LIMIT,
+                            "the header of the OpenEXR file has more than %u bytes",
+                            (unsigned)GVC_EXR_MAX_HEADER);
+        }
+        if (end) return GVC_OK;
+    }
+}
+
 static bool window_is(const exr_attr_box2i_t *window, uint32_t size) {
     return window->min.x == 0 && window->min.y == 0 && window->max.x == (int32_t)size - 1 &&
            window->max.y == (int32_t)size - 1;
@@ -218,6 +255,7 @@ static gvc_result read_pixels(exr_context_t file, uint32_t size, uint16_t *codes
 static gvc_result open_file(gvc_cursor *bytes, exr_context_t *file, gvc_error *error) {
     *file = NULL;
     GVC_TRY(check_kind(bytes->data, bytes->size, error));
+    GVC_TRY(check_header(bytes->data, bytes->size, error));
     exr_context_initializer_t init = EXR_DEFAULT_CONTEXT_INITIALIZER;
     init.error_handler_fn = keep_quiet;
     init.user_data = bytes;

@@ -49,9 +49,12 @@ gvc_result gvc_h264_encode(const gvc_h264_options *options, const uint16_t *cons
 typedef struct gvc_h264_decoder gvc_h264_decoder;
 
 /** `config` is the content of avcC and is validated: High 10, 4:2:0, 10 bits. `width` and `height`
- * are what every picture must have after cropping, else GVC_ERROR_CORRUPT. */
+ * are what every picture must have after cropping, else GVC_ERROR_CORRUPT. `max_memory` bounds what
+ * the decoder holds: no more pictures are kept than fit, and a packet that does not fit is refused
+ * (GVC_ERROR_LIMIT). At least as many as the stream says it refers to must fit. */
 gvc_result gvc_h264_decoder_create(const uint8_t *config, size_t config_size, uint32_t width,
-                                   uint32_t height, gvc_h264_decoder **decoder, gvc_error *error);
+                                   uint32_t height, uint64_t max_memory, gvc_h264_decoder **decoder,
+                                   gvc_error *error);
 void gvc_h264_decoder_destroy(gvc_h264_decoder **decoder);
 /** Forgets everything; the next packet must be a keyframe. */
 void gvc_h264_decoder_reset(gvc_h264_decoder *decoder);

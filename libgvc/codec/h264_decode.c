@@ -28,6 +28,11 @@ struct gvc_h264_decoder {
     AVPacket *packet;
     size_t width, height;
     uint64_t sent, received;      /* pictures since the last reset */
+    uint64_t most_pictures;       /* that may be held at a time */
+    uint64_t most_bytes;          /* of a packet */
+    uint64_t pictures;            /* held by the codec or by `frame` */
+    bool over;                    /* one more was asked for */
+    uint8_t mark;                 /* what the buffers that count pictures point at */
     unsigned frame_num_bits;      /* length of frame_num in slice headers */
     uint32_t reference_frame_num; /* frame_num of the previous reference picture */
     bool flushed, failed;
@@ -35,6 +40,13 @@ struct gvc_h264_decoder {
 
 static gvc_result fail_av(gvc_h264_decoder *d, int status, gvc_error *error) {
     d->failed = true;
+    if (d->over) {
+        return gvc_fail(
+            error, GVC_ERROR_LIMIT,
+            "the H.264 stream needs more than %llu pictures at a time, which fit in the "
+            "memory allowed",
+            (unsigned long long)d->most_pictures);
+    }
     if (status == AVERROR(ENOMEM)) return gvc_fail_memory(error);
     return gvc_fail(error, GVC_ERROR_CORRUPT, "the H.264 data of a picture is damaged");
 }
@@ -46,6 +58,64 @@ void gvc_h264_decoder_destroy(gvc_h264_decoder **decoder) {
     avcodec_free_context(&(*decoder)->context);
     free(*decoder);
     *decoder = NULL;
+}
+
+/* --------------------------------------------------------------------------------------------
+ * memory
+ */
+
+/* libavcodec keeps up to 16 pictures for reference and as many until it is their turn. A stream can
+ * make it do both, whatever it declares, so pictures are counted where they are made. */
+
+static void picture_released(void *opaque, uint8_t *data) {
+    (void)data;
+    ((gvc_h264_decoder *)opaque)->pictures--;
+}
+
+static int take_picture(AVCodecContext *context, AVFrame *frame, int flags) {
+    gvc_h264_decoder *d = context->opaque;
+    if (d->pictures >= d->most_pictures) {
+        d->over = true;
+        return AVERROR(ENOMEM);
+    }
+    int status = avcodec_default_get_buffer2(context, frame, flags);
+    if (status < 0) return status;
+    /* Planes are in the first three; this one is released with the last reference to them. */
+    frame->buf[3] = av_buffer_create(&d->mark, sizeof d->mark, picture_released, d, 0);
+    if (!frame->buf[3]) {
+        av_frame_unref(frame);
+        return AVERROR(ENOMEM);
+    }
+    d->pictures++;
+    return 0;
+}
+
+/* What libavcodec 59 takes: of a picture two bytes for each sample in rows and columns that are
+ * padded a little, and 141 for each macroblock (motion, references, types); once, less than 256 for
+ * each macroblock; and contexts of a fixed size. Of a packet there is a copy, and one without
+ * escapes that is larger by a sixteenth. */
+#define MACROBLOCK_BYTES 141u
+#define TABLE_BYTES 256u
+#define CONTEXT_BYTES (UINT64_C(5) << 18)
+#define PACKET_COPIES 3u
+#define PACKET_SHARE 16u /* of the memory is for a packet */
+
+static gvc_result share_memory(gvc_h264_decoder *d, uint64_t max_memory, unsigned references,
+                               gvc_error *error) {
+    uint64_t columns = (d->width + 127) / 64 * 64, rows = (d->height + 63) / 16 * 16;
+    uint64_t macroblocks = columns * rows / 256;
+    uint64_t picture = columns * rows * 3 + macroblocks * MACROBLOCK_BYTES + 4096;
+    uint64_t once = CONTEXT_BYTES + macroblocks * TABLE_BYTES;
+    uint64_t packets = max_memory / PACKET_SHARE;
+    uint64_t left = max_memory - packets > once ? max_memory - packets - once : 0;
+    d->most_bytes = packets / PACKET_COPIES;
+    d->most_pictures = left / picture;
+    /* Besides those referred to, the one being decoded and the one handed out. */
+    if (d->most_pictures >= references + UINT64_C(2)) return GVC_OK;
+    return gvc_fail(error, GVC_ERROR_LIMIT,
+                    "%u pictures of %zu x %zu take %llu MiB to decode, more than the limit",
+                    references + 2, d->width, d->height,
+                    (unsigned long long)((once + (references + 2) * picture) >> 20));
 }
 
 /* libavcodec checks its limit against padded rows. */
@@ -64,6 +134,8 @@ static gvc_result open_decoder(gvc_h264_decoder *d, const uint8_t *config, size_
     if (!c->extradata) return gvc_fail_memory(error);
     memcpy(c->extradata, config, config_size);
     c->extradata_size = (int)config_size;
+    c->opaque = d;
+    c->get_buffer2 = take_picture;
     c->log_level_offset = QUIET;
     c->thread_count = 1;
     c->err_recognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER | AV_EF_EXPLODE;
@@ -75,14 +147,15 @@ static gvc_result open_decoder(gvc_h264_decoder *d, const uint8_t *config, size_
 }
 
 gvc_result gvc_h264_decoder_create(const uint8_t *config, size_t config_size, uint32_t width,
-                                   uint32_t height, gvc_h264_decoder **decoder, gvc_error *error) {
+                                   uint32_t height, uint64_t max_memory, gvc_h264_decoder **decoder,
+                                   gvc_error *error) {
     *decoder = NULL;
     if (!width || !height || width > INT16_MAX || height > INT16_MAX) {
         return gvc_fail(error, GVC_ERROR_ARGUMENT, "no picture has %u x %u samples",
                         (unsigned)width, (unsigned)height);
     }
-    unsigned frame_num_bits;
-    GVC_TRY(gvc_avc_config_check(config, config_size, width, height, &frame_num_bits, error));
+    gvc_avc_facts facts;
+    GVC_TRY(gvc_avc_config_check(config, config_size, width, height, &facts, error));
     if (config_size > INT_MAX - AV_INPUT_BUFFER_PADDING_SIZE) {
         return gvc_fail(error, GVC_ERROR_CORRUPT, "the H.264 configuration record is too large");
     }
@@ -90,8 +163,9 @@ gvc_result gvc_h264_decoder_create(const uint8_t *config, size_t config_size, ui
     if (!d) return gvc_fail_memory(error);
     d->width = width;
     d->height = height;
-    d->frame_num_bits = frame_num_bits;
-    gvc_result result = open_decoder(d, config, config_size, error);
+    d->frame_num_bits = facts.frame_num_bits;
+    gvc_result result = share_memory(d, max_memory, facts.references, error);
+    if (result == GVC_OK) result = open_decoder(d, config, config_size, error);
     if (result != GVC_OK) gvc_h264_decoder_destroy(&d);
     *decoder = d;
     return result;
@@ -100,7 +174,7 @@ gvc_result gvc_h264_decoder_create(const uint8_t *config, size_t config_size, ui
 void gvc_h264_decoder_reset(gvc_h264_decoder *decoder) {
     avcodec_flush_buffers(decoder->context);
     decoder->sent = decoder->received = 0;
-    decoder->flushed = decoder->failed = false;
+    decoder->flushed = decoder->failed = decoder->over = false;
 }
 
 /* What the head of a slice says (7.3.3) of the picture it is part of. */
@@ -209,7 +283,7 @@ static gvc_result send_packet(gvc_h264_decoder *d, const uint8_t *data, size_t s
     slice_head head = {0};
     GVC_TRY(copy_slices(d, data, size, NULL, &length, &head, error));
     GVC_TRY(check_frame_num(d, &head, error));
-    if (length > INT_MAX - AV_INPUT_BUFFER_PADDING_SIZE) {
+    if (length > INT_MAX - AV_INPUT_BUFFER_PADDING_SIZE || length > d->most_bytes) {
         return gvc_fail(error, GVC_ERROR_LIMIT, "a picture of %zu bytes is too large", length);
     }
     int status = av_new_packet(d->packet, (int)length); /* padded with zeros */

@@ -120,22 +120,36 @@ static gvc_result read_head_copy(void *user, uint64_t offset, void *data, size_t
     return GVC_OK;
 }
 
+/** Parses the copy of the head in the index. If there is none that is good, `defect`, that of the
+ * head, stays what is to be told; but not where no byte of the file is to blame. */
+static gvc_result parse_head_copy(gvc_parser *parser, uint64_t *end, gvc_error *defect) {
+    gvc_demux *demux = parser->demux;
+    gvc_error trouble;
+    gvc_error_init(&trouble);
+    gvc_result result = gvc_restore_head(parser, &trouble);
+    if (result == GVC_OK) {
+        const gvc_io *file = parser->io, copy = {demux, demux->head_size, read_head_copy};
+        parser->io = &copy;
+        *end = 0;
+        result = parse_head(parser, end, &trouble);
+        parser->io = file;
+        if (result == GVC_OK && *end == demux->head_size) {
+            return gvc_parser_damage(parser, 0, *end, defect, defect);
+        }
+    }
+    if (result == GVC_OK || is_damage(result)) return defect->code;
+    *defect = trouble;
+    return result;
+}
+
 /** The head from its place or, with keep_going, from its copy in the index. */
 static gvc_result parse_some_head(gvc_parser *parser, uint64_t *end, gvc_error *error) {
     gvc_error defect;
     gvc_error_init(&defect);
     gvc_demux *demux = parser->demux;
     gvc_result result = parse_head(parser, end, &defect);
-    if (result != GVC_OK && is_damage(result) && parser->options->keep_going &&
-        gvc_restore_head(parser, NULL) == GVC_OK) {
-        const gvc_io *file = parser->io, copy = {demux, demux->head_size, read_head_copy};
-        parser->io = &copy;
-        *end = 0;
-        gvc_result restored = parse_head(parser, end, NULL);
-        parser->io = file;
-        if (restored == GVC_OK && *end == demux->head_size) {
-            result = gvc_parser_damage(parser, 0, *end, &defect, &defect);
-        }
+    if (is_damage(result) && parser->options->keep_going) {
+        result = parse_head_copy(parser, end, &defect);
     }
     if (result != GVC_OK && error) *error = defect;
     demux->head_size = *end;
@@ -226,6 +240,7 @@ gvc_result gvc_demux_open(const gvc_io *io, const gvc_read_options *options, gvc
 cleanup:
     free(parser.scratch);
     free(parser.met);
+    demux->held = parser.held - parser.scratch_capacity - parser.met_capacity;
     if (result != GVC_OK) gvc_demux_free(demux);
     return result;
 }
@@ -267,7 +282,7 @@ static const char *const sample_name[GVC_TRACK_KINDS] = {"a picture", "a shape r
                                                          "an exact image"};
 
 gvc_result gvc_demux_read(const gvc_demux *demux, const gvc_io *io, gvc_track_kind kind,
-                          size_t index, gvc_buffer *buffer, gvc_error *error) {
+                          size_t index, uint64_t most, gvc_buffer *buffer, gvc_error *error) {
     gvc_buffer_clear(buffer);
     if (kind >= GVC_TRACK_KINDS || index >= demux->sample_count[kind]) {
         return gvc_fail(error, GVC_ERROR_ARGUMENT, "there is no sample %zu", index);
@@ -281,6 +296,15 @@ gvc_result gvc_demux_read(const gvc_demux *demux, const gvc_io *io, gvc_track_ki
                                          sample_name[kind]),
                             frame);
     }
+    if (sample->size > most) {
+        gvc_box mdat = {.offset = sample->offset, .path = "mdat"};
+        return gvc_at_frame(error,
+                            gvc_box_fail(&mdat, error, GVC_ERROR_LIMIT,
+                                         "%s of %u bytes; the limit is %llu", sample_name[kind],
+                                         sample->size, (unsigned long long)most),
+                            frame);
+    }
+    if (buffer->capacity < sample->size) gvc_buffer_free(buffer); /* never two at a time */
     if (!gvc_grow((void **)&buffer->data, &buffer->capacity, sample->size, 1)) {
         return gvc_at_frame(error, gvc_fail_memory(error), frame);
     }

@@ -110,6 +110,7 @@ typedef struct gvc_demux {
     bool complete; /**< the closing index was there and matched */
 
     uint32_t track_id[GVC_TRACK_KINDS], shown_later[GVC_TRACK_KINDS]; /**< as the head has them */
+    uint64_t held;      /**< bytes of memory that all this takes */
     uint64_t head_size; /**< bytes from the first of ftyp to the last of moov */
     uint8_t *head;      /**< ftyp ... moov where they are damaged in place, from their copy in mfra;
                              else NULL */
@@ -153,8 +154,9 @@ gvc_result gvc_demux_head(const gvc_demux *demux, const gvc_io *io, gvc_buffer *
  * none. */
 gvc_result gvc_demux_check_digest(const gvc_demux *demux, const gvc_io *io, gvc_error *error);
 
-/** Reads a sample and verifies its checksum. `buffer` is cleared first. */
+/** Reads a sample and verifies its checksum. `buffer` is cleared first. GVC_ERROR_LIMIT, before
+ * memory is taken, for one of more than `most` bytes. */
 gvc_result gvc_demux_read(const gvc_demux *demux, const gvc_io *io, gvc_track_kind kind,
-                          size_t index, gvc_buffer *buffer, gvc_error *error);
+                          size_t index, uint64_t most, gvc_buffer *buffer, gvc_error *error);
 
 #endif

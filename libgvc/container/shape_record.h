@@ -94,13 +94,18 @@ gvc_result gvc_shape_record_write(const gvc_shape *shape, const gvc_shape_frame 
                                   gvc_buffer *buffer, gvc_error *error);
 
 /** Parses one record of untrusted bytes of a file with this configuration. `max_memory` bounds the
- * decompressed size (GVC_ERROR_LIMIT). If the record says "same", `shape` stays empty. Checks
- * ranges: counts against bytes left, sizes 16..image_size, node and feature numbers, chart
- * rectangles inside the plane and disjoint, finite origin, step > 0 and finite, node_count -
+ * what is allocated, `data` not counted (GVC_ERROR_LIMIT). If the record says "same", `shape` stays
+ * empty. Checks ranges: counts against bytes left, sizes 16..image_size, node and feature numbers,
+ * chart rectangles inside the plane and disjoint, finite origin, step > 0 and finite, node_count -
  * edge_count == 1 - 2 * genus, and that each side table passes gvc_weld_build's rules with the
  * genus declared, and that walking the sides meets the nodes the edges name. */
 gvc_result gvc_shape_record_read(const uint8_t *data, size_t size, const gvc_config *config,
                                  size_t max_memory, gvc_shape *shape, gvc_shape_frame *frame,
                                  gvc_error *error);
+
+/** More bytes than a record of a file with this configuration can need: longer ones are refused. */
+uint64_t gvc_shape_record_bytes(const gvc_config *config);
+/** Bytes that reading records takes at most, the record and the shape read before it included. */
+uint64_t gvc_shape_record_memory(const gvc_config *config);
 
 #endif

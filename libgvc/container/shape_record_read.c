@@ -34,9 +34,27 @@ static bool map_is_usable(const gvc_chart_shape *chart) {
     return true;
 }
 
+/** What is left while the charts of a body are read: bytes, samples of the plane, and memory. */
+typedef struct body_reader {
+    gvc_cursor cursor;
+    uint32_t image_size;
+    uint64_t samples, memory;
+} body_reader;
+
+static gvc_result take_memory(body_reader *body, uint64_t size, gvc_error *error) {
+    if (size > body->memory) {
+        return gvc_fail(error, GVC_ERROR_LIMIT,
+                        "the charts of a shape record take more memory than the limit");
+    }
+    body->memory -= size;
+    return GVC_OK;
+}
+
 /** The fields before the graph. */
-static gvc_result read_placement(gvc_cursor *cursor, gvc_chart_shape *chart, uint32_t image_size,
-                                 size_t index, gvc_error *error) {
+static gvc_result read_placement(body_reader *body, gvc_chart_shape *chart, size_t index,
+                                 gvc_error *error) {
+    gvc_cursor *cursor = &body->cursor;
+    uint32_t image_size = body->image_size;
     uint32_t component = read_varint32(cursor);
     chart->x = read_varint32(cursor);
     chart->y = read_varint32(cursor);
@@ -51,12 +69,19 @@ static gvc_result read_placement(gvc_cursor *cursor, gvc_chart_shape *chart, uin
                         chart->sides.size, GVC_MIN_IMAGE_SIZE, image_size);
     }
     if (!map_is_usable(chart)) return fail_chart(index, "its map to space is not finite", error);
+    /* Charts do not overlap. Known now, it bounds what they allocate. */
+    uint64_t samples = (uint64_t)chart->sides.size * chart->sides.size;
+    if (samples > body->samples) {
+        return fail_chart(index, "the charts up to it have more samples than a plane", error);
+    }
+    body->samples -= samples;
     return GVC_OK;
 }
 
 /** Reads the counts, checks them against each other and the bytes left, and allocates. */
-static gvc_result make_room(gvc_cursor *cursor, gvc_chart_shape *chart, size_t index,
+static gvc_result make_room(body_reader *body, gvc_chart_shape *chart, size_t index,
                             gvc_error *error) {
+    gvc_cursor *cursor = &body->cursor;
     size_t node_count = read_varint32(cursor);
     size_t edge_count = read_varint32(cursor);
     if (cursor->failed) return fail_chart(index, "the record ends within it", error);
@@ -72,6 +97,11 @@ static gvc_result make_room(gvc_cursor *cursor, gvc_chart_shape *chart, size_t i
         return fail_chart(index, "it has more nodes and edges than bytes", error);
     }
     gvc_side_table *sides = &chart->sides;
+    GVC_TRY(take_memory(
+        body,
+        node_count * sizeof *chart->node +
+            edge_count * (sizeof *chart->edge + sizeof *sides->steps + 2 * sizeof *sides->side),
+        error));
     chart->node = gvc_alloc(node_count, sizeof *chart->node);
     chart->edge = gvc_alloc(edge_count, sizeof *chart->edge);
     sides->steps = gvc_alloc(edge_count, sizeof *sides->steps);
@@ -117,41 +147,67 @@ static gvc_result read_sides(gvc_cursor *cursor, gvc_side_table *sides, size_t i
     return GVC_OK;
 }
 
-static gvc_result read_chart(gvc_cursor *cursor, gvc_chart_shape *chart, uint32_t image_size,
-                             size_t index, gvc_error *error) {
-    GVC_TRY(read_placement(cursor, chart, image_size, index, error));
-    GVC_TRY(make_room(cursor, chart, index, error));
-    GVC_TRY(read_graph(cursor, chart, index, error));
-    return read_sides(cursor, &chart->sides, index, error);
+static gvc_result read_chart(body_reader *body, gvc_chart_shape *chart, size_t index,
+                             gvc_error *error) {
+    GVC_TRY(read_placement(body, chart, index, error));
+    GVC_TRY(make_room(body, chart, index, error));
+    GVC_TRY(read_graph(&body->cursor, chart, index, error));
+    return read_sides(&body->cursor, &chart->sides, index, error);
 }
 
-static gvc_result read_body(const uint8_t *data, size_t size, uint32_t image_size, gvc_shape *shape,
-                            gvc_error *error) {
-    gvc_cursor cursor = gvc_cursor_make(data, size);
-    shape->segment = gvc_read_varint(&cursor);
-    uint64_t chart_count = gvc_read_varint(&cursor);
-    if (cursor.failed || chart_count < 1 ||
-        chart_count > gvc_cursor_left(&cursor) / GVC_MIN_CHART_BYTES) {
+static gvc_result read_body(body_reader *body, gvc_shape *shape, gvc_error *error) {
+    gvc_cursor *cursor = &body->cursor;
+    size_t size = gvc_cursor_left(cursor);
+    shape->segment = gvc_read_varint(cursor);
+    uint64_t chart_count = gvc_read_varint(cursor);
+    if (cursor->failed || chart_count < 1 ||
+        chart_count > gvc_cursor_left(cursor) / GVC_MIN_CHART_BYTES ||
+        chart_count > body->samples / (GVC_MIN_IMAGE_SIZE * GVC_MIN_IMAGE_SIZE)) {
         return gvc_fail(error, GVC_ERROR_CORRUPT, "%llu charts in a body of %zu bytes",
                         (unsigned long long)chart_count, size);
     }
+    GVC_TRY(take_memory(body, chart_count * sizeof *shape->chart, error));
     shape->chart = gvc_alloc((size_t)chart_count, sizeof *shape->chart);
     if (!shape->chart) return gvc_fail_memory(error);
     shape->chart_count = (size_t)chart_count;
     for (size_t i = 0; i < shape->chart_count; i++) {
-        GVC_TRY(read_chart(&cursor, &shape->chart[i], image_size, i, error));
+        GVC_TRY(read_chart(body, &shape->chart[i], i, error));
     }
-    if (gvc_cursor_left(&cursor)) {
+    if (gvc_cursor_left(cursor)) {
         return gvc_fail(error, GVC_ERROR_CORRUPT, "%zu bytes are left after the last chart",
-                        gvc_cursor_left(&cursor));
+                        gvc_cursor_left(cursor));
     }
     return GVC_OK;
 }
 
+static uint64_t plane_samples(const gvc_config *config) {
+    return (uint64_t)config->picture_width * config->plane_height;
+}
+
 /** No body is longer (spec 13.3): two varints of at most 10 bytes, and per chart at most 47 + 31 S
  * bytes, which is less than three for each of its S * S samples; charts do not overlap. */
-static uint64_t greatest_body(const gvc_config *config) {
-    return 20 + 3 * (uint64_t)config->picture_width * config->plane_height;
+static uint64_t greatest_body(const gvc_config *config) { return 20 + 3 * plane_samples(config); }
+
+uint64_t gvc_shape_record_bytes(const gvc_config *config) {
+    /* flags, digests and label; Zstandard may make a body longer by very little */
+    return 1024 + greatest_body(config) + greatest_body(config) / 128;
+}
+
+/** Bytes that gvc_shape_check takes at a time: the weld of a chart, with what is needed to make it,
+ * and the columns of the plane. */
+static uint64_t check_memory(const gvc_shape *shape, const gvc_config *config) {
+    uint64_t size = 0;
+    for (size_t i = 0; i < shape->chart_count; i++) {
+        if (shape->chart[i].sides.size > size) size = shape->chart[i].sides.size;
+    }
+    return size * size * sizeof(uint32_t) + size * 4 * 32 +
+           config->picture_width * sizeof(uint32_t) + shape->chart_count * sizeof(void *);
+}
+
+uint64_t gvc_shape_record_memory(const gvc_config *config) {
+    /* At 16 samples a side the arrays of a chart take 2.7 bytes a sample, and its check 7: the
+     * record and its expanded body, this shape and the one before, and the check. */
+    return 2 * gvc_shape_record_bytes(config) + (2 * 3 + 7) * plane_samples(config) + 4096;
 }
 
 /** Expands the zstd frame that fills [data, data + size) into `*body`, which the caller frees.
@@ -232,7 +288,12 @@ gvc_result gvc_shape_record_read(const uint8_t *data, size_t size, const gvc_con
         GVC_CHECK(expand_body(body, body_size, config, max_memory, &expanded, &body_size, error));
         body = expanded;
     }
-    GVC_CHECK(read_body(body, body_size, config->image_size, shape, error));
+    body_reader reader = {.cursor = gvc_cursor_make(body, body_size),
+                          .image_size = config->image_size,
+                          .samples = plane_samples(config),
+                          .memory = max_memory - (expanded ? body_size : 0)};
+    GVC_CHECK(read_body(&reader, shape, error));
+    GVC_CHECK(take_memory(&reader, check_memory(shape, config), error));
     GVC_CHECK(gvc_shape_check(shape, config->picture_width, config->plane_height, error));
 cleanup:
     free(expanded);

@@ -36,7 +36,10 @@ gvc_result gvc_batch_analyse(gvc_batch *batch, const gvc_source *source,
     free_frames(batch);
     batch->first = first;
     batch->count = count;
-    for (size_t i = 0; i < count; i++) batch->work[i] = (gvc_frame_work){.number = first + i};
+    for (size_t i = 0; i < count; i++) {
+        batch->work[i] =
+            (gvc_frame_work){.number = first + i, .longest_edge = options->longest_edge};
+    }
     GVC_TRY(gvc_parallel_for(options->threads, count, analyse_one, &a, error));
     if (options->registration)
         GVC_TRY(gvc_parallel_for(options->threads, count, follow_one, &a, error));

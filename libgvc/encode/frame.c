@@ -12,19 +12,18 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Edges of a frame are split until none is longer, in parts of the root of the surface's area; a
- * surface of equilateral triangles of this size has 2,000 vertices. */
-#define LONGEST_EDGE 0.024
-/* And no more vertices are added than this, for meshes that are all needles. */
-#define MOST_ADDED 20000
+/* No more vertices are added than so many times those of a surface of equilateral triangles with
+ * the longest edge (2,000 of them at 0.024), for meshes that are all needles. */
+#define MOST_ADDED 10
 
 /* Halfedges of the mesh with its long edges split, so that coarse meshes and fine ones offer as
  * many places to the root, to nodes and paths, to integrals and to the chart (docs/adr/0014). */
-static gvc_result build_halfedges(const gvc_mesh *mesh, gvc_halfedges *halfedges,
-                                  gvc_error *error) {
+static gvc_result build_halfedges(const gvc_mesh *mesh, double longest_edge,
+                                  gvc_halfedges *halfedges, gvc_error *error) {
     GVC_TRY(gvc_halfedges_build(mesh, 0, halfedges, error));
-    double longest = LONGEST_EDGE * sqrt(gvc_mesh_area(mesh));
-    size_t most = mesh->vertex_count + MOST_ADDED;
+    double longest = longest_edge * sqrt(gvc_mesh_area(mesh));
+    double even = 2 / (sqrt(3) * longest_edge * longest_edge); /* V = F / 2 */
+    size_t most = mesh->vertex_count + (size_t)fmin(MOST_ADDED * even, UINT32_MAX / 4);
     return longest > 0 ? gvc_refine(halfedges, longest, most, error) : GVC_OK;
 }
 
@@ -35,7 +34,7 @@ gvc_result gvc_frame_analyse(gvc_frame_work *work, const gvc_source *source, boo
     gvc_result result = gvc_load_frame(source, work->number, weld, &work->mesh, NULL, error);
     if (result == GVC_OK) {
         work->diagonal = gvc_mesh_diagonal(work->mesh);
-        result = build_halfedges(work->mesh, &work->halfedges, error);
+        result = build_halfedges(work->mesh, work->longest_edge, &work->halfedges, error);
     }
     if (result == GVC_OK) {
         result = gvc_features_find(&work->halfedges, &options, &work->features, error);
@@ -45,7 +44,7 @@ gvc_result gvc_frame_analyse(gvc_frame_work *work, const gvc_source *source, boo
 
 gvc_result gvc_frame_follow(gvc_frame_work *work, const gvc_mesh *before, gvc_error *error) {
     gvc_halfedges from = {0};
-    gvc_result result = build_halfedges(before, &from, error);
+    gvc_result result = build_halfedges(before, work->longest_edge, &from, error);
     if (result == GVC_OK) result = gvc_warp_create(&from, &work->halfedges, &work->warp, error);
     gvc_halfedges_free(&from);
     return gvc_at_frame(error, result, (int64_t)work->number);
@@ -62,7 +61,7 @@ void gvc_frame_free(gvc_frame_work *work) {
 gvc_result gvc_frame_uncut(gvc_frame_work *work, gvc_error *error) {
     gvc_cut_graph_free(&work->graph);
     gvc_halfedges_free(&work->halfedges);
-    return build_halfedges(work->mesh, &work->halfedges, error);
+    return build_halfedges(work->mesh, work->longest_edge, &work->halfedges, error);
 }
 
 /* --------------------------------------------------------------------------------------- image */

@@ -69,7 +69,7 @@ static gvc_result decode_again(gvc_group *group, gvc_error *error) {
     size_t next = 0;
     gvc_result result =
         gvc_h264_decoder_create(group->coded.config, group->coded.config_size, group->layout.width,
-                                3 * group->layout.plane_height, &decoder, error);
+                                3 * group->layout.plane_height, UINT64_MAX, &decoder, error);
     for (size_t i = 0; result == GVC_OK && i < group->coded.packet_count; i++) {
         const gvc_packet *packet = &group->coded.packet[i];
         result = gvc_h264_decoder_send(decoder, packet->data, packet->size,

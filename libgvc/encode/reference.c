@@ -266,6 +266,7 @@ gvc_result gvc_reference_frame(const gvc_source *source, bool weld, uint32_t siz
     gvc_reference_report made = {0};
     growth g = {.work = work, .final = &segment->image_options.parameterize};
     segment->number = segment->first_frame = work->number;
+    work->longest_edge = GVC_LONGEST_EDGE;
     segment->end_frame = work->number + 1;
     GVC_TRY(gvc_load_frame(source, work->number, weld, &work->mesh, NULL, error));
     work->diagonal = gvc_mesh_diagonal(work->mesh);

@@ -51,14 +51,15 @@ typedef struct vote_context {
     bool weld;
     uint64_t first, count; /* frames that votes are taken from */
     size_t votes;
-    double persistence;
+    double persistence, longest_edge;
     size_t extrema[VOTES];
 } vote_context;
 
 static gvc_result vote_one(void *user, size_t index, gvc_error *error) {
     vote_context *context = user;
     size_t spread = context->votes > 1 ? context->votes - 1 : 1;
-    gvc_frame_work work = {.number = context->first + (context->count - 1) * index / spread};
+    gvc_frame_work work = {.number = context->first + (context->count - 1) * index / spread,
+                           .longest_edge = context->longest_edge};
     gvc_result result = gvc_frame_analyse(&work, context->source, context->weld, error);
     size_t n = 0;
     while (result == GVC_OK && n < work.features.extremum_count &&
@@ -86,7 +87,8 @@ static gvc_result vote(gvc_segment *segment, const gvc_source *source,
                             .weld = options->weld,
                             .first = first,
                             .count = end - first,
-                            .persistence = options->persistence};
+                            .persistence = options->persistence,
+                            .longest_edge = options->longest_edge};
     segment->vote_end = end;
     context.votes = context.count < VOTES ? (size_t)context.count : VOTES;
     GVC_TRY(gvc_parallel_for(options->threads, context.votes, vote_one, &context, error));

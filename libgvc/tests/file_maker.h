@@ -131,7 +131,8 @@ static inline gvc_result read_all(const uint8_t *data, size_t size, bool keep_go
     }
     for (unsigned kind = 0; result == GVC_OK && kind < GVC_TRACK_KINDS; kind++) {
         for (size_t i = 0; result == GVC_OK && i < demux.sample_count[kind]; i++) {
-            result = gvc_demux_read(&demux, &io, (gvc_track_kind)kind, i, &sample, error);
+            result =
+                gvc_demux_read(&demux, &io, (gvc_track_kind)kind, i, UINT64_MAX, &sample, error);
         }
     }
     gvc_buffer_free(&sample);

@@ -41,16 +41,16 @@ static void test_round_trip(void **state) {
                     assert_int_equal(entry->presentation, shown);
                     assert_int_equal(
                         gvc_demux_sample_of(&demux, fragment, (gvc_track_kind)kind, shown), index);
-                    assert_int_equal(
-                        gvc_demux_read(&demux, &io, (gvc_track_kind)kind, index, &sample, NULL),
-                        GVC_OK);
+                    assert_int_equal(gvc_demux_read(&demux, &io, (gvc_track_kind)kind, index,
+                                                    UINT64_MAX, &sample, NULL),
+                                     GVC_OK);
                     assert_int_equal(sample.size, sample_bytes(kind, shown, i == 0, expected));
                     assert_memory_equal(sample.data, expected, sample.size);
                 }
             }
         }
         assert_int_equal(frame, SMALL_FRAMES);
-        assert_int_equal(gvc_demux_read(&demux, &io, GVC_TRACK_SHAPE, 7, &sample, NULL),
+        assert_int_equal(gvc_demux_read(&demux, &io, GVC_TRACK_SHAPE, 7, UINT64_MAX, &sample, NULL),
                          GVC_ERROR_ARGUMENT);
         gvc_buffer_free(&sample);
         gvc_demux_free(&demux);
@@ -83,8 +83,8 @@ static size_t count_good(const gvc_demux *demux, const gvc_io *io) {
                 if (!demux->has_track[kind]) continue;
                 size_t index = gvc_demux_sample_of(demux, fragment, (gvc_track_kind)kind,
                                                    fragment->first_frame + f);
-                gvc_result result =
-                    gvc_demux_read(demux, io, (gvc_track_kind)kind, index, &sample, NULL);
+                gvc_result result = gvc_demux_read(demux, io, (gvc_track_kind)kind, index,
+                                                   UINT64_MAX, &sample, NULL);
                 assert_true(result == GVC_OK || result == GVC_ERROR_CORRUPT);
                 both = both && result == GVC_OK;
             }

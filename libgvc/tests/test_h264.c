@@ -68,8 +68,8 @@ static gvc_h264_decoder *open_decoder(const gvc_coded_group *group) {
     gvc_error error;
     gvc_error_init(&error);
     gvc_h264_decoder *decoder;
-    gvc_result result =
-        gvc_h264_decoder_create(group->config, group->config_size, WIDTH, HEIGHT, &decoder, &error);
+    gvc_result result = gvc_h264_decoder_create(group->config, group->config_size, WIDTH, HEIGHT,
+                                                UINT64_MAX, &decoder, &error);
     if (result != GVC_OK) fail_msg("%s", error.message);
     return decoder;
 }
@@ -520,7 +520,7 @@ static void test_damaged_config(void **state) {
     static const uint32_t wrong[][2] = {{WIDTH + 2, HEIGHT}, {WIDTH, HEIGHT - 2}, {16, 16}};
     for (size_t i = 0; i < 3; i++) {
         assert_int_equal(gvc_h264_decoder_create(group.config, group.config_size, wrong[i][0],
-                                                 wrong[i][1], &decoder, &error),
+                                                 wrong[i][1], UINT64_MAX, &decoder, &error),
                          GVC_ERROR_CORRUPT);
         assert_null(decoder);
     }
@@ -529,19 +529,25 @@ static void test_damaged_config(void **state) {
         uint8_t *copy = malloc(size + 1);
         assert_non_null(copy);
         memcpy(copy, group.config, size);
-        assert_int_equal(gvc_h264_decoder_create(copy, size, WIDTH, HEIGHT, &decoder, &error),
-                         GVC_ERROR_CORRUPT);
+        assert_int_equal(
+            gvc_h264_decoder_create(copy, size, WIDTH, HEIGHT, UINT64_MAX, &decoder, &error),
+            GVC_ERROR_CORRUPT);
         free(copy);
     }
+    /* Four pictures and contexts take more than a megabyte. */
+    assert_int_equal(gvc_h264_decoder_create(group.config, group.config_size, WIDTH, HEIGHT,
+                                             UINT64_C(1) << 20, &decoder, &error),
+                     GVC_ERROR_LIMIT);
+    assert_null(decoder);
     group.config[1] = 244;
-    assert_int_equal(
-        gvc_h264_decoder_create(group.config, group.config_size, WIDTH, HEIGHT, &decoder, &error),
-        GVC_ERROR_UNSUPPORTED);
+    assert_int_equal(gvc_h264_decoder_create(group.config, group.config_size, WIDTH, HEIGHT,
+                                             UINT64_MAX, &decoder, &error),
+                     GVC_ERROR_UNSUPPORTED);
     group.config[1] = 110;
     for (size_t bit = 0; bit < 8 * group.config_size; bit++) { /* no crash, no leak */
         group.config[bit / 8] ^= (uint8_t)(1u << bit % 8);
         gvc_result result = gvc_h264_decoder_create(group.config, group.config_size, WIDTH, HEIGHT,
-                                                    &decoder, &error);
+                                                    UINT64_MAX, &decoder, &error);
         assert_int_equal(result == GVC_OK, decoder != NULL);
         gvc_h264_decoder_destroy(&decoder);
         group.config[bit / 8] ^= (uint8_t)(1u << bit % 8);

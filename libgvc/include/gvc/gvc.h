@@ -216,6 +216,9 @@ typedef struct gvc_encode_options {
     double interior_share;  /**< how far a chart's interior goes to where the one before it was,
                                  0..1; default 0.8 */
     bool registration;      /**< earlier places are moved along with the surface; default true */
+    double longest_edge;    /**< edges are split until none is longer, in parts of the root of the
+                                 surface's area, so that coarse meshes and fine ones are cut alike;
+                                 > 0; default 0.024 (at least 2,000 vertices) */
     /** Called from the calling thread; return false to cancel. May be NULL. */
     bool (*progress)(void *user, gvc_stage stage, uint64_t done, uint64_t total);
     /** Warnings, one line without newline; frame or GVC_NO_FRAME. May be NULL. */
@@ -286,7 +289,8 @@ typedef struct gvc_io {
 /** Limits, and what to decode. Start from gvc_read_options_init. */
 typedef struct gvc_read_options {
     size_t struct_size;      /**< set by gvc_read_options_init */
-    uint64_t max_memory;     /**< bytes any one decode may hold; default 1 GiB */
+    uint64_t max_memory;     /**< bytes that a reader and one of its decoders may hold together,
+                                  codecs included (docs/limits.md); default 1 GiB */
     uint32_t max_image_size; /**< samples per side; default 2049 */
     uint64_t max_frames;     /**< default 10,000,000 */
     bool keep_going; /**< accept a damaged or cut-off file and index every whole fragment of it */
