@@ -6,7 +6,7 @@ set -eu
 
 wanted="build-essential cmake ninja-build pkg-config
   libavcodec-dev libavutil-dev libzstd-dev libopenexr-dev libsuitesparse-dev
-  libpng-dev libzip-dev liblzma-dev libdraco-dev libcmocka-dev ffmpeg python3 python3-numpy $*"
+  libpng-dev libzip-dev liblzma-dev libdraco-dev libcmocka-dev ffmpeg python3 python3-numpy python3-zstandard $*"
 
 missing=""
 for package in $wanted; do
