@@ -3,6 +3,7 @@
 #include "encoding.h"
 
 #include "decoding.h"
+#include "memory_file.h"
 #include "require.h"
 
 void small_capture_free(small_capture *capture) {
@@ -14,12 +15,6 @@ static gvc_result read_mesh(void *user, uint64_t frame, gvc_mesh **mesh, gvc_err
     const gvc_mesh *kept = ((const small_capture *)user)->mesh[frame];
     return gvc_mesh_create(gvc_mesh_positions(kept), gvc_mesh_vertex_count(kept),
                            gvc_mesh_faces(kept), gvc_mesh_face_count(kept), mesh, error);
-}
-
-static gvc_result collect(void *user, const void *data, size_t size, gvc_error *error) {
-    (void)error;
-    gvc_write_bytes(user, data, size);
-    return GVC_OK;
 }
 
 static void check_closed(const gvc_reader *reader, uint64_t frame) {
@@ -56,7 +51,7 @@ bool encode_and_check(const small_capture *capture, const gvc_encode_options *op
                       gvc_buffer *file) {
     gvc_source source = {
         .user = (void *)(uintptr_t)capture, .frame_count = capture->count, .read = read_mesh};
-    gvc_sink sink = {file, collect};
+    gvc_sink sink = {file, sink_write};
     gvc_encode_report report;
     gvc_error error;
     gvc_error_init(&error);

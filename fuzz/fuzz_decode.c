@@ -7,15 +7,10 @@
 #include "base/bytes.h"
 #include "decoding.h"
 #include "live_memory.h"
+#include "memory_file.h"
 #include "require.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static gvc_result collect(void *user, const void *data, size_t size, gvc_error *error) {
-    (void)error;
-    gvc_write_bytes(user, data, size);
-    return GVC_OK;
-}
 
 static bool count_defect(void *user, const gvc_defect *defect) {
     REQUIRE(defect->error.code != GVC_OK && defect->error.message[0]);
@@ -75,7 +70,7 @@ static void check_repaired(const gvc_buffer *file, const gvc_repair_report *repo
 
 static void repair(const gvc_reader *reader, const decoded *frames) {
     gvc_buffer file = {0};
-    gvc_sink sink = {&file, collect};
+    gvc_sink sink = {&file, sink_write};
     gvc_repair_report report;
     gvc_error error;
     gvc_error_init(&error);

@@ -3,6 +3,7 @@
  * a folder, and seeds for fuzz_encode into another; and, for the replay tests, files with
  * single bytes changed and checksums made right again into a third. */
 #include "encoding.h"
+#include "memory_file.h"
 #include "require.h"
 #include "reseal.h"
 #include "seed.h"
@@ -70,12 +71,6 @@ static int encode_kind(const kind *k, gvc_buffer *file) {
 /* -------------------------------------------------------------------------------- damage, repair
  */
 
-static gvc_result collect(void *user, const void *data, size_t size, gvc_error *error) {
-    (void)error;
-    gvc_write_bytes(user, data, size);
-    return GVC_OK;
-}
-
 /** A file without its end, one with a wrong head, one with wrong data, and the last repaired. */
 static int save_damaged(const char *folder, gvc_buffer *file) {
     gvc_buffer cut = *file, repaired = {0};
@@ -90,7 +85,7 @@ static int save_damaged(const char *folder, gvc_buffer *file) {
     gvc_reader *reader;
     gvc_read_options_init(&reading);
     reading.keep_going = true;
-    gvc_sink sink = {&repaired, collect};
+    gvc_sink sink = {&repaired, sink_write};
     REQUIRE(gvc_reader_open_memory(file->data, file->size, &reading, &reader, NULL) == GVC_OK);
     failed |= gvc_repair(reader, &sink, NULL, NULL, NULL, NULL) != GVC_OK;
     gvc_reader_close(&reader);

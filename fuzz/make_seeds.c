@@ -3,6 +3,7 @@
  * folders given, and, for the replay tests, each of them with single bytes changed. */
 #include "container/shape_record.h"
 #include "container/writer.h"
+#include "memory_file.h"
 #include "seed.h"
 
 #include <stdio.h>
@@ -11,13 +12,6 @@
 
 #define SIZE 33u
 #define FRAMES 5u
-
-/** Collects what the writer writes. */
-static gvc_result collect(void *user, const void *data, size_t size, gvc_error *error) {
-    (void)error;
-    gvc_write_bytes(user, data, size);
-    return GVC_OK;
-}
 
 /** One chart: a star of four tips. Its parts live in `parts`. */
 typedef struct star_parts {
@@ -125,7 +119,7 @@ static gvc_result make_file(tracks has, const gvc_buffer *first, const gvc_buffe
                          .declared_frames = FRAMES,
                          .unit = "m",
                          .encoder = "seed"};
-    gvc_sink sink = {file, collect};
+    gvc_sink sink = {file, sink_write};
     gvc_writer *writer;
     GVC_TRY(gvc_writer_create(&sink, &config, has.video ? avc : NULL, sizeof avc, &writer, NULL));
     gvc_result result = write_samples(writer, has, first, same);

@@ -2,6 +2,7 @@
 /** @file mutate_samples.c  Changes samples; the writer then makes sizes, offsets and checksums. */
 #include "mutate.h"
 
+#include "memory_file.h"
 #include "random.h"
 
 #include "base/memory.h"
@@ -17,24 +18,6 @@
 #define MAX_SAMPLE ((size_t)1 << 20)
 #define MAX_SAMPLES 256u
 #define EXR_HEAD 512u /* about where the attributes of an OpenEXR file lie */
-
-typedef struct input {
-    const uint8_t *data;
-    size_t size;
-} input;
-
-static gvc_result read_input(void *user, uint64_t offset, void *data, size_t size,
-                             gvc_error *error) {
-    (void)error;
-    memcpy(data, ((const input *)user)->data + offset, size);
-    return GVC_OK;
-}
-
-static gvc_result collect(void *user, const void *data, size_t size, gvc_error *error) {
-    (void)error;
-    gvc_write_bytes(user, data, size);
-    return GVC_OK;
-}
 
 /* All samples of a file, in the order of the demuxer. */
 typedef struct samples {
@@ -197,7 +180,7 @@ static gvc_result write_fragment(const samples *s, size_t index, gvc_writer *wri
 }
 
 static gvc_result write_file(const samples *s, gvc_buffer *file) {
-    gvc_sink sink = {file, collect};
+    gvc_sink sink = {file, sink_write};
     gvc_writer *writer;
     GVC_TRY(gvc_writer_create_from(&sink, &s->demux, &s->io, &writer, NULL));
     gvc_result result = GVC_OK;
@@ -210,8 +193,7 @@ static gvc_result write_file(const samples *s, gvc_buffer *file) {
 }
 
 size_t mutate_samples(uint8_t *data, size_t size, size_t max_size, uint64_t *random) {
-    input in = {data, size};
-    samples s = {.io = {.user = &in, .size = size, .read = read_input}};
+    samples s = {.io = io_of(data, size)};
     gvc_read_options options = {.struct_size = sizeof options,
                                 .max_memory = MAX_SAMPLE << 4,
                                 .max_image_size = 2049,

@@ -33,7 +33,7 @@ struct gvc_decoder {
 
     gvc_h264_decoder *h264; /* only if not */
     gvc_buffer sample;
-    uint64_t most_bytes; /* that it may have */
+    uint64_t most_bytes; /* that it, or one of the exact track, may have */
     uint16_t *luma;      /* last picture received: 3 planes, one above the other */
     gvc_picture_layout layout;
     size_t sent;     /* samples of it fed to the H.264 decoder, or left out because damaged */
@@ -111,7 +111,7 @@ gvc_result gvc_decoder_create(const gvc_reader *reader, gvc_decoder **decoder, g
     made->reader = reader;
     made->fragment = NO_FRAGMENT;
     made->is_exact = is_exact;
-    made->most_bytes = made->exact.most_bytes = left;
+    made->most_bytes = left;
     gvc_result result = is_exact ? GVC_OK : open_video(made, left, error);
     if (result != GVC_OK) {
         gvc_decoder_destroy(&made);
@@ -264,7 +264,10 @@ static gvc_result set_fragment(gvc_decoder *decoder, size_t fragment, gvc_error 
     decoder->fragment = fragment;
     GVC_TRY(gvc_reader_shape(decoder->reader, fragment, &decoder->shape, error));
     GVC_TRY(build_welds(decoder, error));
-    if (decoder->is_exact) return gvc_exact_decoder_begin(&decoder->exact, &decoder->shape, error);
+    if (decoder->is_exact) {
+        return gvc_exact_decoder_begin(&decoder->exact, &decoder->shape, decoder->most_bytes,
+                                       error);
+    }
     decoder->end = decoder->reader->demux.fragment[fragment].frame_count;
     decoder->restarts = 0;
     gvc_error_init(&decoder->defect);

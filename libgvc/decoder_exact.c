@@ -22,18 +22,18 @@ void gvc_exact_decoder_free(gvc_exact_decoder *decoder) {
     gvc_buffer_free(&decoder->sample);
     free(decoder->codes);
     free(decoder->before);
-    *decoder = (gvc_exact_decoder){.most_bytes = decoder->most_bytes};
+    *decoder = (gvc_exact_decoder){0};
 }
 
 gvc_result gvc_exact_decoder_begin(gvc_exact_decoder *decoder, const gvc_shape *shape,
-                                   gvc_error *error) {
+                                   uint64_t most_bytes, gvc_error *error) {
     size_t count = 0;
     for (size_t c = 0; c < shape->chart_count; c++) count += chart_codes(&shape->chart[c]);
+    if (decoder->code_count != count) gvc_exact_decoder_free(decoder);
+    decoder->most_bytes = most_bytes;
     decoder->next = 0;
     decoder->end = SIZE_MAX;
     if (decoder->code_count == count) return GVC_OK;
-    gvc_exact_decoder_free(decoder);
-    decoder->end = SIZE_MAX;
     decoder->codes = gvc_alloc(count, sizeof *decoder->codes);
     decoder->before = gvc_alloc(count, sizeof *decoder->before);
     if (!decoder->codes || !decoder->before) {

@@ -8,7 +8,7 @@
 
 /** Zero-initialise; free with gvc_exact_decoder_free. */
 typedef struct gvc_exact_decoder {
-    uint64_t most_bytes; /**< that a sample may have; set beforehand */
+    uint64_t most_bytes; /**< that a sample may have */
     gvc_buffer sample;
     uint16_t *codes, *before; /**< of the last frame decoded and of the one before it: for each
                                  chart 3 planes of size * size codes, one chart after the other */
@@ -18,9 +18,10 @@ typedef struct gvc_exact_decoder {
     gvc_error defect;         /**< why not */
 } gvc_exact_decoder;
 
-/** Prepares for the frames of another fragment, whose charts are `shape`. */
+/** Prepares for the frames of another fragment, whose charts are `shape`. A sample of more than
+ * `most_bytes` is refused (GVC_ERROR_LIMIT). */
 gvc_result gvc_exact_decoder_begin(gvc_exact_decoder *decoder, const gvc_shape *shape,
-                                   gvc_error *error);
+                                   uint64_t most_bytes, gvc_error *error);
 /** Leaves the codes of `frame`, one of `fragment`, in decoder->codes. A frame behind one that is
  * damaged gets that one's error at once. */
 gvc_result gvc_exact_decoder_seek(gvc_exact_decoder *decoder, const gvc_reader *reader,

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /** @file options.c  Defaults of the public option structs. */
 #include "chart/side_table.h"
+#include "mesh/refine.h"
 
 #include <math.h>
 
@@ -19,7 +20,7 @@ void gvc_encode_options_init(gvc_encode_options *options) {
                                     .lambda = 0.95,
                                     .interior_share = 0.8,
                                     .registration = true,
-                                    .longest_edge = 0.024};
+                                    .longest_edge = GVC_LONGEST_EDGE};
 }
 
 void gvc_read_options_init(gvc_read_options *options) {

@@ -2,6 +2,7 @@
 /** @file reader.c  Opens a `.gvc` file from a path, memory or callbacks, and tells facts about it.
  */
 #include "base/memory.h"
+#include "base/read_at.h"
 #include "file.h"
 
 #include <errno.h>
@@ -15,16 +16,11 @@
 static gvc_result read_file_at(void *user, uint64_t offset, void *data, size_t size,
                                gvc_error *error) {
     const gvc_reader *reader = user;
-    uint8_t *next = data;
-    while (size > 0) {
-        ssize_t got = pread(reader->descriptor, next, size, (off_t)offset);
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return gvc_fail(error, GVC_ERROR_IO, "cannot read: %s", strerror(errno));
-        if (got == 0) return gvc_fail(error, GVC_ERROR_TRUNCATED, "the file became shorter");
-        next += got;
-        offset += (uint64_t)got;
-        size -= (size_t)got;
+    int status = gvc_read_at(reader->descriptor, offset, data, size);
+    if (status == GVC_READ_ENDS) {
+        return gvc_fail(error, GVC_ERROR_TRUNCATED, "the file became shorter");
     }
+    if (status) return gvc_fail(error, GVC_ERROR_IO, "cannot read: %s", strerror(status));
     return GVC_OK;
 }
 

@@ -14,6 +14,7 @@
 #include "descriptor/integral.h"
 #include "encode/frame.h"
 #include "encode/scan.h"
+#include "mesh/refine.h"
 #include "synth.h"
 
 #include <math.h>

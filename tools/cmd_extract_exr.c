@@ -79,15 +79,18 @@ static int parse(extract_arguments *a, int argc, char **argv) {
     return EXIT_DONE;
 }
 
-/* A frame that cannot be read is wanted, so that the failure is told; one that was lost before the
+typedef enum choice { TAKE, LEAVE, LOST } choice;
+
+/* A frame that cannot be read is taken, so that the failure is told; one that was lost before the
  * file was repaired is not, if there are others. */
-static bool is_wanted(void *user, uint64_t frame) {
-    const extract_arguments *a = user;
+static choice choose(const extract_arguments *a, uint64_t frame) {
     gvc_frame_info info;
     gvc_result result = gvc_reader_frame_info(a->reader, frame, &info, NULL);
-    if (result == GVC_ERROR_LOST) return a->first == a->last;
-    return result != GVC_OK || !a->keyframes || info.keyframe;
+    if (result == GVC_ERROR_LOST) return a->first < a->last ? LOST : TAKE;
+    return result != GVC_OK || !a->keyframes || info.keyframe ? TAKE : LEAVE;
 }
+
+static bool is_wanted(void *user, uint64_t frame) { return choose(user, frame) == TAKE; }
 
 static gvc_result write_file(const extract_arguments *a, uint64_t frame, const gvc_buffer *bytes,
                              gvc_error *error) {
@@ -120,24 +123,17 @@ static gvc_result extract_frame(const extract_arguments *a, gvc_decoder *decoder
     return result;
 }
 
-static uint64_t lost_frames(const extract_arguments *a) {
-    uint64_t lost = 0;
-    for (uint64_t frame = a->first; frame <= a->last; frame++) {
-        gvc_frame_info info;
-        if (gvc_reader_frame_info(a->reader, frame, &info, NULL) == GVC_ERROR_LOST) lost++;
-    }
-    return lost;
-}
-
 static int extract_frames(extract_arguments *a, gvc_decoder *decoder) {
     cli_progress progress;
+    uint64_t lost = 0;
     int status = EXIT_DONE;
     cli_progress_begin(&progress, "extracting", a->quiet);
     for (uint64_t frame = a->first; status == EXIT_DONE && frame <= a->last; frame++) {
         gvc_error error;
         gvc_error_init(&error);
-        bool wanted = is_wanted(a, frame);
-        if (wanted && extract_frame(a, decoder, frame, &error) != GVC_OK) {
+        choice chosen = choose(a, frame);
+        lost += chosen == LOST;
+        if (chosen == TAKE && extract_frame(a, decoder, frame, &error) != GVC_OK) {
             status = cli_fail("extract-exr", a->input, &error);
         } else if (cli_interrupted()) {
             fprintf(stderr, "gvc extract-exr: interrupted after frame %llu\n",
@@ -147,7 +143,7 @@ static int extract_frames(extract_arguments *a, gvc_decoder *decoder) {
         cli_progress_show(&progress, frame - a->first + 1, a->last - a->first + 1);
     }
     cli_progress_end(&progress);
-    cli_tell_lost("extract-exr", lost_frames(a), a->last - a->first + 1);
+    cli_tell_lost("extract-exr", lost, a->last - a->first + 1);
     return status;
 }
 

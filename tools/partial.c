@@ -2,9 +2,9 @@
 /** @file partial.c  A .gvc file being encoded, and its journal. */
 #include "partial.h"
 
+#include "base/read_at.h"
 #include "base/result.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,17 +21,11 @@
 static gvc_result read_part(void *user, uint64_t offset, void *data, size_t size,
                             gvc_error *error) {
     const gvc_output *output = user;
-    char *next = data;
-    while (size > 0) {
-        ssize_t got = pread(output->descriptor, next, size, (off_t)offset);
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return gvc_fail_errno(error, "read", errno, output->temporary);
-        if (got == 0) return gvc_fail(error, GVC_ERROR_TRUNCATED, "the file became shorter");
-        next += got;
-        offset += (uint64_t)got;
-        size -= (size_t)got;
+    int status = gvc_read_at(output->descriptor, offset, data, size);
+    if (status == GVC_READ_ENDS) {
+        return gvc_fail(error, GVC_ERROR_TRUNCATED, "the file became shorter");
     }
-    return GVC_OK;
+    return status ? gvc_fail_errno(error, "read", status, output->temporary) : GVC_OK;
 }
 
 static gvc_result read_journal(partial_file *p, gvc_error *error) {

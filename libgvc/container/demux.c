@@ -281,6 +281,28 @@ gvc_result gvc_demux_check_digest(const gvc_demux *demux, const gvc_io *io, gvc_
 static const char *const sample_name[GVC_TRACK_KINDS] = {"a picture", "a shape record",
                                                          "an exact image"};
 
+static gvc_result read_sample(const gvc_sample_entry *sample, const gvc_io *io, const char *name,
+                              uint64_t most, gvc_buffer *buffer, gvc_error *error) {
+    const gvc_box mdat = {.offset = sample->offset, .path = "mdat"};
+    if (sample->offset > io->size || sample->size > io->size - sample->offset) {
+        return gvc_box_fail(&mdat, error, GVC_ERROR_CORRUPT, "the file ends within %s", name);
+    }
+    if (sample->size > most) {
+        return gvc_box_fail(&mdat, error, GVC_ERROR_LIMIT, "%s of %u bytes; the limit is %llu",
+                            name, sample->size, (unsigned long long)most);
+    }
+    if (buffer->capacity < sample->size) gvc_buffer_free(buffer); /* never two at a time */
+    if (!gvc_grow((void **)&buffer->data, &buffer->capacity, sample->size, 1)) {
+        return gvc_fail_memory(error);
+    }
+    GVC_TRY(io->read(io->user, sample->offset, buffer->data, sample->size, error));
+    if (gvc_crc32(0, buffer->data, sample->size) != sample->crc) {
+        return gvc_box_fail(&mdat, error, GVC_ERROR_CORRUPT, "the checksum of %s is wrong", name);
+    }
+    buffer->size = sample->size;
+    return GVC_OK;
+}
+
 gvc_result gvc_demux_read(const gvc_demux *demux, const gvc_io *io, gvc_track_kind kind,
                           size_t index, uint64_t most, gvc_buffer *buffer, gvc_error *error) {
     gvc_buffer_clear(buffer);
@@ -288,34 +310,6 @@ gvc_result gvc_demux_read(const gvc_demux *demux, const gvc_io *io, gvc_track_ki
         return gvc_fail(error, GVC_ERROR_ARGUMENT, "there is no sample %zu", index);
     }
     const gvc_sample_entry *sample = &demux->sample[kind][index];
-    int64_t frame = (int64_t)sample->presentation;
-    if (sample->offset > io->size || sample->size > io->size - sample->offset) {
-        gvc_box mdat = {.offset = sample->offset, .path = "mdat"};
-        return gvc_at_frame(error,
-                            gvc_box_fail(&mdat, error, GVC_ERROR_CORRUPT, "the file ends within %s",
-                                         sample_name[kind]),
-                            frame);
-    }
-    if (sample->size > most) {
-        gvc_box mdat = {.offset = sample->offset, .path = "mdat"};
-        return gvc_at_frame(error,
-                            gvc_box_fail(&mdat, error, GVC_ERROR_LIMIT,
-                                         "%s of %u bytes; the limit is %llu", sample_name[kind],
-                                         sample->size, (unsigned long long)most),
-                            frame);
-    }
-    if (buffer->capacity < sample->size) gvc_buffer_free(buffer); /* never two at a time */
-    if (!gvc_grow((void **)&buffer->data, &buffer->capacity, sample->size, 1)) {
-        return gvc_at_frame(error, gvc_fail_memory(error), frame);
-    }
-    gvc_result result = io->read(io->user, sample->offset, buffer->data, sample->size, error);
-    if (result != GVC_OK) return gvc_at_frame(error, result, frame);
-    if (gvc_crc32(0, buffer->data, sample->size) != sample->crc) {
-        gvc_box mdat = {.offset = sample->offset, .path = "mdat"};
-        result = gvc_box_fail(&mdat, error, GVC_ERROR_CORRUPT, "the checksum of %s is wrong",
-                              sample_name[kind]);
-        return gvc_at_frame(error, result, frame);
-    }
-    buffer->size = sample->size;
-    return GVC_OK;
+    return gvc_at_frame(error, read_sample(sample, io, sample_name[kind], most, buffer, error),
+                        (int64_t)sample->presentation);
 }

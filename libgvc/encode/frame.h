@@ -8,9 +8,6 @@
 #include "chart/side_table.h"
 #include "descriptor/tracking.h"
 
-/** Default of gvc_encode_options.longest_edge. */
-#define GVC_LONGEST_EDGE 0.024
-
 typedef struct gvc_frame_work {
     uint64_t number;
     double longest_edge; /**< of gvc_encode_options; set beforehand */

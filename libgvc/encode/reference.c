@@ -9,6 +9,7 @@
 #include "descriptor/graph_edit.h"
 #include "descriptor/handle_graph.h"
 #include "encode/stretch.h"
+#include "mesh/refine.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -6,6 +6,9 @@
 
 #include "mesh/halfedge.h"
 
+/** Default of gvc_encode_options.longest_edge: as a part of the root of the surface's area. */
+#define GVC_LONGEST_EDGE 0.024
+
 /** Splits the longest edge in the middle, again and again, until none is longer than `longest` or
  * there are `most` vertices. The surface stays the same, point for point, and so do vertices and
  * their numbers; attributes are interpolated. Longest first, angles do not degenerate: no less than

@@ -14,10 +14,7 @@
 void allocation_begin(uint64_t failing);
 /** Allocations since then, the one that failed among them. */
 uint64_t allocation_count(void);
-/** Blocks that are held and bytes in them, of all time. */
+/** Blocks that are held, of all time. */
 int64_t allocation_blocks(void);
-int64_t allocation_bytes(void);
-/** The most bytes held at a time since allocation_begin, besides those held then. */
-int64_t allocation_peak(void);
 
 #endif

@@ -15,23 +15,7 @@
 
 #include "container/demux.h"
 #include "container/writer.h"
-
-static inline gvc_result sink_write(void *user, const void *data, size_t size, gvc_error *error) {
-    (void)error;
-    gvc_write_bytes(user, data, size);
-    return GVC_OK;
-}
-
-static inline gvc_result memory_read(void *user, uint64_t offset, void *data, size_t size,
-                                     gvc_error *error) {
-    (void)error;
-    memcpy(data, (const uint8_t *)user + offset, size);
-    return GVC_OK;
-}
-
-static inline gvc_io io_of(const uint8_t *data, size_t size) {
-    return (gvc_io){.user = (void *)(uintptr_t)data, .size = size, .read = memory_read};
-}
+#include "memory_file.h"
 
 static inline gvc_read_options options_make(bool keep_going) {
     return (gvc_read_options){.struct_size = sizeof(gvc_read_options),

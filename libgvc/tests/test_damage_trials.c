@@ -11,16 +11,11 @@
 
 #include "base/bytes.h"
 #include "file.h"
+#include "memory_file.h"
 
 #include <time.h>
 
 enum { FRAMES = 6, GOP = 3, CHANGES = 12, CUTS = 4 };
-
-static gvc_result keep_bytes(void *user, const void *data, size_t size, gvc_error *error) {
-    (void)error;
-    gvc_write_bytes(user, data, size);
-    return GVC_OK;
-}
 
 /* The good file, and what its parts are. */
 typedef struct original {
@@ -118,7 +113,7 @@ static bool ignore(void *user, const gvc_defect *defect) {
 static void try_repair(const original *o, const gvc_reader *damaged, const bool *must,
                        const expectation *expected) {
     gvc_buffer file = {0};
-    gvc_sink sink = {&file, keep_bytes};
+    gvc_sink sink = {&file, sink_write};
     gvc_repair_report report;
     gvc_reader *reader;
     size_t defects = 0, good;

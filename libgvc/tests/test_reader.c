@@ -9,15 +9,10 @@
 #include "container/box.h"
 #include "container/writer.h"
 #include "file.h"
+#include "memory_file.h"
 #include "shape_maker.h"
 
 #define GROUP 500u /**< frames, all in one fragment */
-
-static gvc_result buffer_write(void *user, const void *data, size_t size, gvc_error *error) {
-    (void)error;
-    gvc_write_bytes(user, data, size);
-    return GVC_OK;
-}
 
 typedef struct counted {
     const gvc_buffer *file;
@@ -67,7 +62,7 @@ static gvc_buffer group_make(uint32_t image_size, size_t odd) {
     static const uint8_t avc[] = {1, 110, 0, 42, 255}, picture[16] = {0};
     static const int32_t order[3] = {2, -1, -1};
     gvc_buffer file = {0}, whole = {0}, same = {0}, other = {0};
-    gvc_sink sink = {&file, buffer_write};
+    gvc_sink sink = {&file, sink_write};
     gvc_config config = {.version_minor = GVC_FORMAT_MINOR,
                          .picture_width = 64,
                          .plane_height = 48,
