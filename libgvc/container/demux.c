@@ -153,10 +153,6 @@ static gvc_result parse_some_head(gvc_parser *parser, uint64_t *end, gvc_error *
     }
     if (result != GVC_OK && error) *error = defect;
     demux->head_size = *end;
-    for (unsigned kind = 0; kind < GVC_TRACK_KINDS; kind++) {
-        demux->track_id[kind] = parser->track[kind].track_id;
-        demux->shown_later[kind] = parser->track[kind].shown_later;
-    }
     return result;
 }
 

@@ -93,6 +93,13 @@ typedef struct gvc_damage {
     gvc_error error;
 } gvc_damage;
 
+/** What the head says of a track. */
+typedef struct gvc_track_defaults {
+    uint32_t track_id;
+    uint32_t duration, size, flags; /**< from trex: of samples whose fragment does not say them */
+    uint32_t shown_later; /**< from the edit list: frames that composition offsets are too great */
+} gvc_track_defaults;
+
 typedef struct gvc_demux {
     gvc_config config;
     uint8_t *avc_config;
@@ -109,7 +116,7 @@ typedef struct gvc_demux {
     gvc_damage *damage;
     bool complete; /**< the closing index was there and matched */
 
-    uint32_t track_id[GVC_TRACK_KINDS], shown_later[GVC_TRACK_KINDS]; /**< as the head has them */
+    gvc_track_defaults track[GVC_TRACK_KINDS];
     uint64_t held;      /**< bytes of memory that all this takes */
     uint64_t head_size; /**< bytes from the first of ftyp to the last of moov */
     uint8_t *head;      /**< ftyp ... moov where they are damaged in place, from their copy in mfra;

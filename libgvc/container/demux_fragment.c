@@ -215,7 +215,7 @@ static gvc_result read_trafs(gvc_parser *parser, const gvc_box *moof,
                                 track_id);
         }
         found[kind] = true;
-        run[kind] = (track_run){.kind = kind, .defaults = parser->track[kind]};
+        run[kind] = (track_run){.kind = kind, .defaults = parser->demux->track[kind]};
         GVC_TRY(read_overrides(&tfhd, flags, &run[kind].defaults, error));
         GVC_TRY(read_decode_time(parser, &traf, &run[kind], error));
         GVC_TRY(read_run_head(parser, &traf, &run[kind], error));

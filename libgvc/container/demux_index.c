@@ -52,7 +52,7 @@ static bool entry_matches(const gvc_parser *parser, const gvc_fragment_entry *fr
     const gvc_demux *demux = parser->demux;
     gvc_track_kind main = gvc_demux_main(demux);
     const gvc_sample_entry *first = &demux->sample[main][fragment->first_sample[main]];
-    uint64_t shown = first->presentation + parser->track[main].shown_later;
+    uint64_t shown = first->presentation + parser->demux->track[main].shown_later;
     uint64_t time = version == 1 ? gvc_read_u64(cursor) : gvc_read_u32(cursor);
     uint64_t offset = version == 1 ? gvc_read_u64(cursor) : gvc_read_u32(cursor);
     read_number(cursor, (sizes >> 4 & 3) + 1); /* number of traf: they may stand in any order */

@@ -296,15 +296,16 @@ static gvc_result read_config(gvc_parser *parser, const track_facts *described, 
 /** Notes number and shift of a track. */
 static gvc_result keep_track(gvc_parser *parser, const gvc_box *moov, const track_facts *facts,
                              gvc_track_kind kind, gvc_error *error) {
-    uint32_t duration = parser->demux->config.frame_rate_den;
+    gvc_demux *demux = parser->demux;
+    uint32_t duration = demux->config.frame_rate_den;
     uint64_t frames = facts->media_time / duration;
     if (facts->media_time % duration != 0 || frames > INT32_MAX) {
         return gvc_box_fail(moov, error, GVC_ERROR_CORRUPT,
                             "track %u begins at time %llu, which is no frame", facts->track_id,
                             (unsigned long long)facts->media_time);
     }
-    parser->track[kind].track_id = facts->track_id;
-    parser->track[kind].shown_later = (uint32_t)frames;
+    demux->track[kind].track_id = facts->track_id;
+    demux->track[kind].shown_later = (uint32_t)frames;
     return GVC_OK;
 }
 
@@ -330,7 +331,7 @@ static gvc_result read_content(gvc_parser *parser, const gvc_box *moov, bool has
                                 demux->config.frame_rate_num);
         }
         GVC_TRY(keep_track(parser, moov, &track[kind], (gvc_track_kind)kind, error));
-        GVC_TRY(read_defaults(&mvex, &parser->track[kind], error));
+        GVC_TRY(read_defaults(&mvex, &demux->track[kind], error));
     }
     return GVC_OK;
 }

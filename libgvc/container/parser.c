@@ -96,6 +96,6 @@ gvc_result gvc_parser_damage(gvc_parser *parser, uint64_t offset, uint64_t size,
 
 gvc_track_kind gvc_parser_kind(const gvc_parser *parser, uint32_t track_id) {
     unsigned kind = track_id ? 0 : GVC_TRACK_KINDS; /* 0: that of a track that is missing */
-    while (kind < GVC_TRACK_KINDS && parser->track[kind].track_id != track_id) kind++;
+    while (kind < GVC_TRACK_KINDS && parser->demux->track[kind].track_id != track_id) kind++;
     return (gvc_track_kind)kind;
 }

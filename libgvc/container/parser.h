@@ -10,18 +10,10 @@
 #include "container/box.h"
 #include "container/demux.h"
 
-/** From trex: what fragments do not say themselves. */
-typedef struct gvc_track_defaults {
-    uint32_t track_id;
-    uint32_t duration, size, flags;
-    uint32_t shown_later; /**< from the edit list: frames that composition offsets are too great */
-} gvc_track_defaults;
-
 typedef struct gvc_parser {
     const gvc_io *io;
     const gvc_read_options *options;
     gvc_demux *demux;
-    gvc_track_defaults track[GVC_TRACK_KINDS];
     uint64_t held; /**< bytes of memory in use */
     uint8_t *scratch;
     size_t scratch_capacity;

@@ -24,6 +24,7 @@ struct gvc_writer {
     gvc_sink sink;
     uint32_t frame_duration;
     bool has_geometry, has_exact;
+    bool other_defaults; /**< the head has other values in trex than this writer counts on */
     uint64_t declared_frames, next_frame, byte_count;
     uint32_t sequence;
     gvc_buffer buffer;  /**< the box being put together */
@@ -108,7 +109,18 @@ static bool is_laid_out_alike(const gvc_demux *demux) {
     for (unsigned kind = 0; kind < GVC_TRACK_KINDS; kind++) {
         uint32_t later = kind == GVC_TRACK_GEOMETRY ? GVC_SHOWN_LATER : 0;
         if (!demux->has_track[kind]) continue;
-        if (demux->track_id[kind] != number[kind] || demux->shown_later[kind] != later)
+        if (demux->track[kind].track_id != number[kind] || demux->track[kind].shown_later != later)
+            return false;
+    }
+    return true;
+}
+
+/** True if trex of each track says what gvc_write_head would have it say. */
+static bool has_usual_defaults(const gvc_demux *demux) {
+    for (unsigned kind = 0; kind < GVC_TRACK_KINDS; kind++) {
+        const gvc_track_defaults *track = &demux->track[kind];
+        if (!demux->has_track[kind]) continue;
+        if (track->duration != demux->config.frame_rate_den || track->flags != GVC_FLAGS_NON_SYNC)
             return false;
     }
     return true;
@@ -126,6 +138,7 @@ gvc_result gvc_writer_create_from(const gvc_sink *sink, const gvc_demux *demux, 
     GVC_CHECK(make_writer(sink, &demux->config, &made, error));
     made->has_geometry = demux->has_track[GVC_TRACK_GEOMETRY];
     made->has_exact = demux->has_track[GVC_TRACK_EXACT];
+    made->other_defaults = !has_usual_defaults(demux);
     GVC_CHECK(gvc_demux_head(demux, io, &made->head, error));
     GVC_CHECK(put_head(made, error));
     *writer = made;
@@ -281,12 +294,22 @@ static size_t write_trun(const gvc_writer *writer, uint32_t track, const gvc_sam
     return data_offset;
 }
 
+static void write_tfhd(const gvc_writer *writer, uint32_t track, gvc_buffer *buffer) {
+    uint32_t flags = GVC_TFHD_BASE_IS_MOOF;
+    if (writer->other_defaults) flags |= GVC_TFHD_DURATION | GVC_TFHD_FLAGS;
+    size_t tfhd = gvc_box_begin_full(buffer, GVC_BOX_TFHD, 0, flags);
+    gvc_write_u32(buffer, track);
+    if (writer->other_defaults) {
+        gvc_write_u32(buffer, writer->frame_duration);
+        gvc_write_u32(buffer, GVC_FLAGS_NON_SYNC);
+    }
+    gvc_box_end(buffer, tfhd);
+}
+
 static size_t write_traf(const gvc_writer *writer, uint32_t track, const gvc_sample *sample,
                          size_t count, gvc_buffer *buffer) {
     size_t traf = gvc_box_begin(buffer, GVC_BOX_TRAF);
-    size_t tfhd = gvc_box_begin_full(buffer, GVC_BOX_TFHD, 0, GVC_TFHD_BASE_IS_MOOF);
-    gvc_write_u32(buffer, track);
-    gvc_box_end(buffer, tfhd);
+    write_tfhd(writer, track, buffer);
     size_t tfdt = gvc_box_begin_full(buffer, GVC_BOX_TFDT, 1, 0);
     gvc_write_u64(buffer, writer->next_frame * writer->frame_duration);
     gvc_box_end(buffer, tfdt);
