@@ -36,12 +36,12 @@ struct gvc_decoder {
     uint64_t most_bytes; /* that it, or one of the exact track, may have */
     uint16_t *luma;      /* last picture received: 3 planes, one above the other */
     gvc_picture_layout layout;
-    size_t sent;     /* samples of it fed to the H.264 decoder, or left out because damaged */
-    size_t end;      /* samples of it that can be fed: all, until one proves to be of no use */
-    size_t restarts; /* how often that happened */
+    size_t sent; /* samples of it fed to the H.264 decoder, or left out because damaged */
+    size_t end;  /* samples of it before the first that the H.264 decoder does not take */
     bool flushed;
     uint64_t next_frame; /* pictures from here on have not come out yet */
     uint64_t shown;      /* the frame whose picture is in `luma`; NO_FRAME if there is none */
+    uint64_t gap;        /* frames from this one to `shown` have none; only if there is `shown` */
     gvc_error defect;    /* the first in the pictures of the fragment; GVC_OK if there is none */
 
     uint16_t *codes; /* handed out by gvc_decoder_codes */
@@ -156,25 +156,24 @@ static void rewind_video(gvc_decoder *decoder) {
     decoder->shown = NO_FRAME;
 }
 
-/* The codec gave up. What it had taken before can be had if it is told that the group ends there.
- */
-static gvc_result end_before(gvc_decoder *decoder, const gvc_error *defect, gvc_error *error) {
-    if (defect->code != GVC_ERROR_CORRUPT) { /* says nothing about the file */
+/* Damage is noted, and decoding goes on; what says nothing about the file is an error. */
+static gvc_result pass_over(gvc_decoder *decoder, gvc_result result, const gvc_error *defect,
+                            gvc_error *error) {
+    if (result != GVC_ERROR_CORRUPT) {
         if (error) *error = *defect;
-        return defect->code;
+        return result;
     }
     note(decoder, defect);
-    if (decoder->sent == 0) {
-        decoder->end = 0; /* no picture can be had */
-        return tell_defect(decoder, error);
-    }
-    size_t fewer = decoder->end - (decoder->sent < decoder->end ? decoder->sent : decoder->end - 1);
-    size_t least = (size_t)1 << decoder->restarts; /* so that a hostile file costs no square */
-    if (fewer < least / 2) fewer = least / 2;
-    decoder->end = fewer < decoder->end ? decoder->end - fewer : 0;
-    if (decoder->restarts < 32) decoder->restarts++;
-    rewind_video(decoder);
     return GVC_OK;
+}
+
+/* The group has no more samples that can be used. */
+static gvc_result end_group(gvc_decoder *decoder, gvc_error *error) {
+    gvc_error defect;
+    gvc_error_init(&defect);
+    decoder->flushed = true;
+    gvc_result result = gvc_h264_decoder_flush(decoder->h264, &defect);
+    return result == GVC_OK ? GVC_OK : pass_over(decoder, result, &defect, error);
 }
 
 /* Feeds the next packet of the fragment, or the end of it. */
@@ -183,10 +182,7 @@ static gvc_result feed(gvc_decoder *decoder, gvc_error *error) {
     const gvc_fragment_entry *fragment = &demux->fragment[decoder->fragment];
     gvc_error defect;
     gvc_error_init(&defect);
-    if (decoder->sent == decoder->end) {
-        decoder->flushed = true;
-        return gvc_h264_decoder_flush(decoder->h264, error);
-    }
+    if (decoder->sent == decoder->end) return end_group(decoder, error);
     size_t index = fragment->first_sample[GVC_TRACK_GEOMETRY] + decoder->sent;
     const gvc_sample_entry *sample = &demux->sample[GVC_TRACK_GEOMETRY][index];
     gvc_result result = gvc_demux_read(demux, &decoder->reader->io, GVC_TRACK_GEOMETRY, index,
@@ -206,7 +202,33 @@ static gvc_result feed(gvc_decoder *decoder, gvc_error *error) {
         if (defect.offset == GVC_NO_OFFSET) defect.offset = sample->offset;
         if (defect.frame == GVC_NO_FRAME) defect.frame = (int64_t)sample->presentation;
     }
-    return end_before(decoder, &defect, error);
+    GVC_TRY(pass_over(decoder, result, &defect, error));
+    /* Pictures that the codec has not given out yet would be lost with this one: once more, without
+     * it. What came out comes out again, for up to here nothing changes. */
+    decoder->end = decoder->sent;
+    rewind_video(decoder);
+    return GVC_OK;
+}
+
+/* Takes the picture in `luma` as that of `frame`. Pictures out of order are passed over, so that
+ * what a frame gets does not depend on which frames were asked for before. */
+static void take_picture(gvc_decoder *decoder, uint64_t frame) {
+    gvc_error defect;
+    gvc_error_init(&defect);
+    if (frame < decoder->next_frame) {
+        (void)gvc_fail(&defect, GVC_ERROR_CORRUPT, "the picture of frame %llu comes too late",
+                       (unsigned long long)frame);
+        note(decoder, &defect);
+        return;
+    }
+    if (frame > decoder->next_frame) {
+        (void)gvc_fail(&defect, GVC_ERROR_CORRUPT, "a picture is missing before frame %llu",
+                       (unsigned long long)frame);
+        note(decoder, &defect);
+    }
+    decoder->gap = decoder->next_frame;
+    decoder->shown = frame;
+    decoder->next_frame = frame + 1;
 }
 
 /* Takes a picture that is ready, or feeds the codec so that one may be. */
@@ -218,20 +240,10 @@ static gvc_result step(gvc_decoder *decoder, gvc_error *error) {
     decoder->shown = NO_FRAME;
     gvc_result result =
         gvc_h264_decoder_receive(decoder->h264, decoder->luma, &presentation, &available, &defect);
-    if (result != GVC_OK) return end_before(decoder, &defect, error);
-    if (available && (uint64_t)presentation >= decoder->next_frame) {
-        bool follows = (uint64_t)presentation == decoder->next_frame;
-        if (!follows && decoder->defect.code == GVC_OK) {
-            return gvc_fail(error, GVC_ERROR_CORRUPT, "a picture is missing before frame %lld",
-                            (long long)presentation);
-        }
-        decoder->shown = (uint64_t)presentation;
-        decoder->next_frame = decoder->shown + 1;
-        return GVC_OK;
-    }
+    if (result != GVC_OK) return pass_over(decoder, result, &defect, error);
     if (available) {
-        return gvc_fail(error, GVC_ERROR_CORRUPT, "the picture of frame %lld comes too late",
-                        (long long)presentation);
+        take_picture(decoder, (uint64_t)presentation);
+        return GVC_OK;
     }
     if (!decoder->flushed) return feed(decoder, error);
     if (decoder->defect.code != GVC_OK) return tell_defect(decoder, error);
@@ -241,7 +253,9 @@ static gvc_result step(gvc_decoder *decoder, gvc_error *error) {
 /* Leaves the picture of `frame` in decoder->luma. */
 static gvc_result seek_picture(gvc_decoder *decoder, uint64_t frame, gvc_error *error) {
     if (decoder->shown == frame) return GVC_OK;
-    if (decoder->end == 0) return tell_defect(decoder, error);
+    if (decoder->shown != NO_FRAME && frame >= decoder->gap && frame < decoder->shown) {
+        return tell_defect(decoder, error);
+    }
     if (decoder->next_frame > frame) rewind_video(decoder);
     while (decoder->next_frame <= frame) GVC_TRY(step(decoder, error));
     return decoder->shown == frame ? GVC_OK : tell_defect(decoder, error);
@@ -269,7 +283,6 @@ static gvc_result set_fragment(gvc_decoder *decoder, size_t fragment, gvc_error 
                                        error);
     }
     decoder->end = decoder->reader->demux.fragment[fragment].frame_count;
-    decoder->restarts = 0;
     gvc_error_init(&decoder->defect);
     rewind_video(decoder);
     return GVC_OK;

@@ -60,14 +60,17 @@ void gvc_h264_decoder_destroy(gvc_h264_decoder **decoder);
 void gvc_h264_decoder_reset(gvc_h264_decoder *decoder);
 /** Feeds one packet with its presentation number (any increasing-by-time number; comes back with
  * the picture). Bytes are copied as the decoder needs padding. Take all available pictures before
- * the next call. After GVC_ERROR_CORRUPT every call fails until a reset. */
+ * the next call. After GVC_ERROR_CORRUPT no more packets are taken until a reset; pictures
+ * not received yet may come after a flush, or be lost. After other errors every call fails until a
+ * reset. */
 gvc_result gvc_h264_decoder_send(gvc_h264_decoder *decoder, const uint8_t *data, size_t size,
                                  int64_t presentation, gvc_error *error);
 /** Tells that no packet follows, so that delayed pictures come out; call reset before sending
  * again. */
 gvc_result gvc_h264_decoder_flush(gvc_h264_decoder *decoder, gvc_error *error);
 /** Takes the next picture in presentation order if there is one: copies its luma to `luma` (width *
- * height) and sets *available. */
+ * height) and sets *available. GVC_ERROR_CORRUPT: a picture is lost, or some are missing at the
+ * end; others may follow. Once nothing is left, that is GVC_OK without a picture. */
 gvc_result gvc_h264_decoder_receive(gvc_h264_decoder *decoder, uint16_t *luma,
                                     int64_t *presentation, bool *available, gvc_error *error);
 

@@ -35,19 +35,23 @@ struct gvc_h264_decoder {
     uint8_t mark;                 /* what the buffers that count pictures point at */
     unsigned frame_num_bits;      /* length of frame_num in slice headers */
     uint32_t reference_frame_num; /* frame_num of the previous reference picture */
-    bool flushed, failed;
+    int reorder_depth;     /* the context's at the beginning; it grows with what is decoded */
+    bool stopped;          /* nothing more is taken: a packet was bad */
+    bool flushed, drained; /* the codec was told of the end; it has nothing left */
+    bool failed;           /* for a reason that says nothing of the stream */
 };
 
 static gvc_result fail_av(gvc_h264_decoder *d, int status, gvc_error *error) {
-    d->failed = true;
     if (d->over) {
+        d->failed = true;
         return gvc_fail(
             error, GVC_ERROR_LIMIT,
             "the H.264 stream needs more than %llu pictures at a time, which fit in the "
             "memory allowed",
             (unsigned long long)d->most_pictures);
     }
-    if (status == AVERROR(ENOMEM)) return gvc_fail_memory(error);
+    d->failed = status == AVERROR(ENOMEM);
+    if (d->failed) return gvc_fail_memory(error);
     return gvc_fail(error, GVC_ERROR_CORRUPT, "the H.264 data of a picture is damaged");
 }
 
@@ -143,6 +147,7 @@ static gvc_result open_decoder(gvc_h264_decoder *d, const uint8_t *config, size_
     c->strict_std_compliance = FF_COMPLIANCE_STRICT;
     c->max_pixels = (int64_t)(align_64(d->width) * align_64(d->height));
     int status = avcodec_open2(c, codec, NULL);
+    d->reorder_depth = c->has_b_frames;
     return status < 0 ? fail_av(d, status, error) : GVC_OK;
 }
 
@@ -173,8 +178,11 @@ gvc_result gvc_h264_decoder_create(const uint8_t *config, size_t config_size, ui
 
 void gvc_h264_decoder_reset(gvc_h264_decoder *decoder) {
     avcodec_flush_buffers(decoder->context);
+    /* Else a stream that needs more than it states would decode in better order the second time. */
+    decoder->context->has_b_frames = decoder->reorder_depth;
     decoder->sent = decoder->received = 0;
-    decoder->flushed = decoder->failed = decoder->over = false;
+    decoder->stopped = decoder->flushed = decoder->drained = false;
+    decoder->failed = decoder->over = false;
 }
 
 /* What the head of a slice says (7.3.3) of the picture it is part of. */
@@ -301,26 +309,26 @@ static gvc_result send_packet(gvc_h264_decoder *d, const uint8_t *data, size_t s
     return GVC_OK;
 }
 
+static gvc_result fail_state(gvc_error *error) {
+    return gvc_fail(error, GVC_ERROR_ARGUMENT, "the H.264 decoder must be reset first");
+}
+
 gvc_result gvc_h264_decoder_send(gvc_h264_decoder *decoder, const uint8_t *data, size_t size,
                                  int64_t presentation, gvc_error *error) {
     gvc_h264_decoder *d = decoder;
-    if (d->failed || d->flushed) {
-        return gvc_fail(error, GVC_ERROR_ARGUMENT, "the H.264 decoder must be reset first");
-    }
+    if (d->failed || d->flushed || d->stopped) return fail_state(error);
     gvc_result result = send_packet(d, data, size, presentation, error);
-    if (result != GVC_OK && result != GVC_ERROR_ARGUMENT) d->failed = true;
+    if (result == GVC_ERROR_CORRUPT) d->stopped = true;
+    if (result == GVC_ERROR_LIMIT || result == GVC_ERROR_MEMORY) d->failed = true;
     return result;
 }
 
 gvc_result gvc_h264_decoder_flush(gvc_h264_decoder *decoder, gvc_error *error) {
     gvc_h264_decoder *d = decoder;
-    if (d->failed || d->flushed) {
-        return gvc_fail(error, GVC_ERROR_ARGUMENT, "the H.264 decoder must be reset first");
-    }
-    int status = avcodec_send_packet(d->context, NULL);
-    if (status < 0) return fail_av(d, status, error);
+    if (d->failed || d->flushed) return fail_state(error);
     d->flushed = true;
-    return GVC_OK;
+    int status = avcodec_send_packet(d->context, NULL);
+    return status < 0 ? fail_av(d, status, error) : GVC_OK;
 }
 
 static gvc_result check_frame(gvc_h264_decoder *d, gvc_error *error) {
@@ -336,22 +344,28 @@ static gvc_result check_frame(gvc_h264_decoder *d, gvc_error *error) {
     return GVC_OK;
 }
 
+/* The codec says that nothing is left. */
+static gvc_result end_stream(gvc_h264_decoder *d, gvc_error *error) {
+    d->drained = true;
+    if (d->received == d->sent) return GVC_OK;
+    return gvc_fail(error, GVC_ERROR_CORRUPT, "%llu packets decode to %llu pictures",
+                    (unsigned long long)d->sent, (unsigned long long)d->received);
+}
+
 gvc_result gvc_h264_decoder_receive(gvc_h264_decoder *decoder, uint16_t *luma,
                                     int64_t *presentation, bool *available, gvc_error *error) {
     gvc_h264_decoder *d = decoder;
     *available = false;
-    if (d->failed) {
-        return gvc_fail(error, GVC_ERROR_ARGUMENT, "the H.264 decoder must be reset first");
-    }
+    if (d->failed) return fail_state(error);
+    if (d->drained) return GVC_OK;
     int status = avcodec_receive_frame(d->context, d->frame);
     if (status == AVERROR(EAGAIN)) return GVC_OK;
-    if (status == AVERROR_EOF) {
-        if (d->received == d->sent) return GVC_OK;
-        d->failed = true;
-        return gvc_fail(error, GVC_ERROR_CORRUPT, "%llu packets decode to %llu pictures",
-                        (unsigned long long)d->sent, (unsigned long long)d->received);
+    if (status == AVERROR_EOF) return end_stream(d, error);
+    if (status < 0) {
+        d->drained = d->flushed; /* so that a stream of errors has an end */
+        return fail_av(d, status, error);
     }
-    if (status < 0) return fail_av(d, status, error);
+    d->received++;
     gvc_result result = check_frame(d, error);
     if (result == GVC_OK) {
         for (size_t y = 0; y < d->height; y++) {
@@ -360,9 +374,6 @@ gvc_result gvc_h264_decoder_receive(gvc_h264_decoder *decoder, uint16_t *luma,
         }
         *presentation = d->frame->pts;
         *available = true;
-        d->received++;
-    } else {
-        d->failed = true;
     }
     av_frame_unref(d->frame);
     return result;
