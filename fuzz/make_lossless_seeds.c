@@ -3,7 +3,9 @@
  * folders given, and, for the replay test, each of them with single bytes changed. */
 #include "codec/exr.h"
 #include "codec/residual.h"
+#include "exr_frame.h"
 #include "seed.h"
+#include "seed_torus.h"
 
 #include <string.h>
 
@@ -34,6 +36,28 @@ static int save_exr(const char *folder, const uint16_t *codes, bool changed) {
     return failed;
 }
 
+/** A whole frame, which a file can be made of. */
+static int save_frame(const char *folder, uint16_t *codes, bool changed) {
+    torus_parts parts;
+    gvc_exr_frame frame = {.config = {.picture_width = SIZE,
+                                      .plane_height = SIZE,
+                                      .image_size = SIZE,
+                                      .code_bits = 10,
+                                      .code_shift = 6,
+                                      .frame_rate_num = 25,
+                                      .frame_rate_den = 1},
+                           .number = 7,
+                           .group = 5,
+                           .shape = make_torus(&parts, SIZE),
+                           .codes = codes};
+    gvc_buffer file = {0};
+    int failed = gvc_exr_frame_write(&frame, &file, NULL) != GVC_OK ||
+                 seed_save(folder, "frame", OPTION, &file);
+    if (!failed && changed) failed = seed_save_changed(folder, "changed_frame", OPTION, &file, 3);
+    gvc_buffer_free(&file);
+    return failed;
+}
+
 static int save_residual(const char *folder, const char *name, const uint16_t *codes,
                          gvc_predictor_kind predictor, bool changed) {
     gvc_buffer sample = {0};
@@ -58,6 +82,7 @@ int main(int argc, char **argv) {
     uint16_t codes[3 * SIZE * SIZE];
     make_image(codes);
     int failed = save_exr(argv[1], codes, changed);
+    failed |= save_frame(argv[1], codes, changed);
     failed |= save_residual(argv[2], "gradient", codes, GVC_PREDICTOR_GRADIENT, changed);
     failed |= save_residual(argv[2], "squares", codes, GVC_PREDICTOR_SQUARES, changed);
     if (failed) fprintf(stderr, "make_lossless_seeds: cannot write to %s, %s\n", argv[1], argv[2]);

@@ -5,6 +5,7 @@
 #include "container/writer.h"
 #include "memory_file.h"
 #include "seed.h"
+#include "seed_torus.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -56,20 +57,9 @@ static int save_two(const char *folder, bool changed) {
     return failed;
 }
 
-/** A torus: one node, two loops. */
 static int save_torus(const char *folder, bool changed) {
-    uint32_t steps[2] = {SIZE - 1, SIZE - 1};
-    gvc_side side[4] = {{0, false}, {1, false}, {0, true}, {1, true}};
-    gvc_shape_node node[1] = {{0, 0}};
-    gvc_shape_edge edge[2] = {{{0, 0}}, {{0, 0}}};
-    gvc_chart_shape chart = {.genus = 1,
-                             .step = 0.5,
-                             .node_count = 1,
-                             .edge_count = 2,
-                             .node = node,
-                             .edge = edge,
-                             .sides = {SIZE, 5, 2, steps, 4, side}};
-    gvc_shape torus = {.chart_count = 1, .chart = &chart};
+    torus_parts parts;
+    gvc_shape torus = make_torus(&parts, SIZE);
     gvc_shape_frame facts = {.has_preview = true};
     gvc_buffer record = {0};
     int failed = gvc_shape_record_write(&torus, &facts, &record, NULL) != GVC_OK ||

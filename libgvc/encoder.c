@@ -305,9 +305,11 @@ static gvc_result refresh_layout(encoder *e, const gvc_frame_work *work, gvc_err
     next.sides = (gvc_side_table){0};
     next.weld = (gvc_weld){0};
     GVC_TRY(gvc_segment_sampling_rms(&e->segment, work, e->size, SIZE_SAMPLES, &now, error));
-    gvc_result result = gvc_segment_layout(&next, work, e->size, e->options.threads, error);
+    gvc_error trouble;
+    gvc_error_init(&trouble);
+    gvc_result result = gvc_segment_layout(&next, work, e->size, e->options.threads, &trouble);
     if (result == GVC_OK) {
-        result = gvc_segment_sampling_rms(&next, work, e->size, SIZE_SAMPLES, &fresh, error);
+        result = gvc_segment_sampling_rms(&next, work, e->size, SIZE_SAMPLES, &fresh, &trouble);
     }
     if (result == GVC_ERROR_MESH) result = GVC_OK, fresh = INFINITY; /* none is to be had */
     if (result == GVC_OK && fresh < WORTH_A_LAYOUT * now) {
@@ -318,7 +320,7 @@ static gvc_result refresh_layout(encoder *e, const gvc_frame_work *work, gvc_err
         follow_no_more(e);
     }
     gvc_segment_free(&next);
-    return result;
+    return gvc_hand_on(error, result, &trouble);
 }
 
 /* -------------------------------------------------------------------------------------- batches */

@@ -100,3 +100,8 @@ gvc_result gvc_explain(gvc_error *error, gvc_result result) {
     }
     return result;
 }
+
+gvc_result gvc_hand_on(gvc_error *error, gvc_result result, const gvc_error *trouble) {
+    if (result != GVC_OK && error) *error = *trouble;
+    return result;
+}

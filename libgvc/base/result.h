@@ -27,6 +27,10 @@ gvc_result gvc_fail_errno(gvc_error *error, const char *action, int number, cons
  * that does not explain itself; returns `result`. */
 gvc_result gvc_explain(gvc_error *error, gvc_result result);
 
+/** For what is tried, and may fail without harm: its own error `trouble` becomes `error` if that is
+ * how the whole ends. Returns `result`; leaves `error` alone if that is GVC_OK. */
+gvc_result gvc_hand_on(gvc_error *error, gvc_result result, const gvc_error *trouble);
+
 /** Returns early with a failed result; use only where nothing has to be freed. */
 #define GVC_TRY(expression)                                                                        \
     do {                                                                                           \

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/** @file shape.c  Plain handling of shapes: free, copy, compare. */
+/** @file shape.c  Plain handling of shapes: free, compare. */
 #include "container/shape_record.h"
-
-#include "base/memory.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -15,37 +13,6 @@ void gvc_shape_free(gvc_shape *shape) {
     }
     free(shape->chart);
     *shape = (gvc_shape){0};
-}
-
-/** A copy of `count` elements, or NULL. */
-static void *duplicate(const void *data, size_t count, size_t size) {
-    void *copy = gvc_alloc(count, size);
-    if (copy && count) memcpy(copy, data, count * size);
-    return copy;
-}
-
-static gvc_result copy_chart(const gvc_chart_shape *from, gvc_chart_shape *to, gvc_error *error) {
-    *to = *from;
-    to->sides = (gvc_side_table){0};
-    to->node = duplicate(from->node, from->node_count, sizeof *from->node);
-    to->edge = duplicate(from->edge, from->edge_count, sizeof *from->edge);
-    if (!to->node || !to->edge) return gvc_fail_memory(error);
-    return gvc_side_table_copy(&from->sides, &to->sides, error);
-}
-
-gvc_result gvc_shape_copy(const gvc_shape *from, gvc_shape *to, gvc_error *error) {
-    *to = (gvc_shape){.segment = from->segment};
-    to->chart = gvc_alloc(from->chart_count, sizeof *to->chart);
-    if (!to->chart) return gvc_fail_memory(error);
-    for (size_t i = 0; i < from->chart_count; i++) {
-        to->chart_count = i + 1; /* a chart copied in part is freed as well */
-        gvc_result result = copy_chart(&from->chart[i], &to->chart[i], error);
-        if (result != GVC_OK) {
-            gvc_shape_free(to);
-            return result;
-        }
-    }
-    return GVC_OK;
 }
 
 static bool nodes_equal(const gvc_chart_shape *a, const gvc_chart_shape *b) {

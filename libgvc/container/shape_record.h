@@ -84,7 +84,6 @@ typedef struct gvc_shape_frame {
 } gvc_shape_frame;
 
 void gvc_shape_free(gvc_shape *shape);
-gvc_result gvc_shape_copy(const gvc_shape *from, gvc_shape *to, gvc_error *error);
 /** True if both describe the same charts to the bit. */
 bool gvc_shape_equal(const gvc_shape *a, const gvc_shape *b);
 

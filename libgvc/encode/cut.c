@@ -70,6 +70,7 @@ static gvc_result cut_somehow(const gvc_cutter *cutter, gvc_frame_work *work, un
         {0, GVC_HANDLES_GRAPH},        {1, GVC_HANDLES_GRAPH},    {2, GVC_HANDLES_GRAPH},
         {0, GVC_HANDLES_NEAR_TIP + 2}, {0, GVC_HANDLES_NEAR_ROOT}};
     bool handles = cutter->facts[work->number].genus > 0;
+    gvc_error trouble;
     gvc_result result = GVC_ERROR_MESH;
     for (size_t i = 0; i < sizeof attempt / sizeof *attempt && result == GVC_ERROR_MESH; i++) {
         int more = attempt[i].more;
@@ -78,9 +79,16 @@ static gvc_result cut_somehow(const gvc_cutter *cutter, gvc_frame_work *work, un
         cut_choice choice = {segment->extremum_count + (size_t)more, attempt[i].search};
         if (choice.search == GVC_HANDLES_SHORT) choice.search = search;
         if (i > 0 && choice.extrema > work->features.extremum_count) continue;
-        result = try_cut(cutter, work, choice, segment, error);
+        gvc_error_init(&trouble);
+        result = try_cut(cutter, work, choice, segment, &trouble);
     }
-    return result;
+    /* Rather a poor cut than none, where the border of the image has no room for all tips. */
+    for (size_t fewer = segment->extremum_count / 2; result == GVC_ERROR_MESH && fewer > 0;
+         fewer /= 2) {
+        gvc_error_init(&trouble);
+        result = try_cut(cutter, work, (cut_choice){fewer, search}, segment, &trouble);
+    }
+    return gvc_hand_on(error, result, &trouble);
 }
 
 /* A frame that is a segment by itself has nothing to be consistent with, so slighter extrema may be
@@ -101,8 +109,12 @@ static gvc_result cut_still(const gvc_cutter *cutter, gvc_frame_work *work, unsi
         }
         if (extrema == tried) continue;
         tried = extrema;
-        gvc_result result = try_cut(cutter, work, (cut_choice){extrema, search}, segment, error);
-        if (result != GVC_OK && result != GVC_ERROR_MESH) return result;
+        gvc_error trouble;
+        gvc_error_init(&trouble);
+        gvc_result result = try_cut(cutter, work, (cut_choice){extrema, search}, segment, &trouble);
+        if (result != GVC_OK && result != GVC_ERROR_MESH) {
+            return gvc_hand_on(error, result, &trouble);
+        }
         if (result != GVC_OK || segment->trial_rms > WORTH_A_TIP * least) continue;
         least = segment->trial_rms;
         best = extrema;
@@ -125,9 +137,8 @@ static gvc_result cut_again(const gvc_cutter *cutter, gvc_frame_work *work, gvc_
     if (!*done) return GVC_OK;
     gvc_result result = lay_out(cutter, work, segment, &trouble);
     *done = result == GVC_OK;
-    if (result == GVC_OK || result == GVC_ERROR_MESH) return GVC_OK;
-    if (error) *error = trouble;
-    return result;
+    if (result == GVC_ERROR_MESH) return GVC_OK;
+    return gvc_hand_on(error, result, &trouble);
 }
 
 /* A segment may do better with another cut than the one it has, such as that of the frame before.
@@ -162,9 +173,8 @@ static gvc_result try_instead(const gvc_cutter *cutter, gvc_frame_work *work, un
         gvc_tracker_take_back(cutter->tracker);
     }
     gvc_segment_free(&other);
-    if (result == GVC_OK || result == GVC_ERROR_MESH) return GVC_OK;
-    if (error) *error = trouble;
-    return result;
+    if (result == GVC_ERROR_MESH) return GVC_OK;
+    return gvc_hand_on(error, result, &trouble);
 }
 
 gvc_result gvc_cut_begin(const gvc_cutter *cutter, uint64_t number, gvc_frame_work *work,

@@ -156,8 +156,7 @@ static gvc_result map(const gvc_disk *disk, const gvc_parameterize_options *opti
     *mapped = result == GVC_OK;
     *stretch = *mapped && isfinite(report.stretch) ? report.stretch : INFINITY;
     if (result == GVC_ERROR_MESH) return GVC_OK;
-    if (result != GVC_OK && error) *error = trouble;
-    return result;
+    return gvc_hand_on(error, result, &trouble);
 }
 
 /* Where a map collapses beyond floating point there is no telling where it stretches most: it does
@@ -219,10 +218,7 @@ static gvc_result grow(growth *g, gvc_error *error) {
         gvc_error_init(&trouble);
         gvc_result result = measure(g, &g->stretch[paths], &extremum, &trouble);
         if (result == GVC_ERROR_MESH && g->measured > 0) return GVC_OK; /* the square is full */
-        if (result != GVC_OK) {
-            if (error) *error = trouble;
-            return result;
-        }
+        GVC_TRY(gvc_hand_on(error, result, &trouble));
         g->measured = paths + 1;
         bool found = isfinite(g->stretch[best_of(g)]);
         if (paths == MOST_PATHS || extremum == GVC_NONE) return GVC_OK;
@@ -245,20 +241,22 @@ static gvc_result cut_again(growth *g, size_t paths, gvc_error *error) {
 /* Lays out and samples the cut of least stretch; if that gives charts that fold, the next best. */
 static gvc_result make_image(growth *g, uint32_t size, gvc_segment *segment, double *image,
                              gvc_reference_report *report, gvc_error *error) {
+    gvc_error trouble;
     gvc_result result;
     do {
         size_t paths = best_of(g);
+        gvc_error_init(&trouble);
         report->path_count = paths;
         report->stretch = g->stretch[paths];
         GVC_TRY(cut_again(g, paths, error));
-        result = gvc_segment_layout(segment, g->work, size, 1, error);
+        result = gvc_segment_layout(segment, g->work, size, 1, &trouble);
         if (result == GVC_OK) {
             result = gvc_frame_image(g->work, &segment->sides, &segment->weld,
-                                     &segment->image_options, image, error);
+                                     &segment->image_options, image, &trouble);
         }
         g->stretch[paths] = INFINITY;
     } while (result == GVC_ERROR_MESH && isfinite(g->stretch[best_of(g)]));
-    return result;
+    return gvc_hand_on(error, result, &trouble);
 }
 
 gvc_result gvc_reference_frame(const gvc_source *source, bool weld, uint32_t size,

@@ -6,9 +6,17 @@
 #include "base/parallel.h"
 #include "mesh/file.h"
 
+#include <float.h>
+#include <math.h>
 #include <string.h>
 
 #define CHUNK 64 /* frames between two progress reports */
+
+/* Positions are decoded as float32, and so is every corner of the cube that holds a segment, with
+ * its margin (spec 7.3.3): at most twice as far out as the farthest vertex, and as wide again. */
+#define GREATEST_COORDINATE (FLT_MAX / 8.0)
+/* Steps of 16-bit codes are normal float32 numbers. */
+#define LEAST_DIAGONAL (FLT_MIN * 131072.0)
 
 typedef unsigned long long ull;
 
@@ -44,6 +52,26 @@ static gvc_result refuse(const gvc_topology *t, gvc_error *error) {
     return GVC_OK;
 }
 
+static gvc_result check_size(const gvc_mesh *mesh, gvc_error *error) {
+    double minimum[3], maximum[3], diagonal = gvc_mesh_diagonal(mesh);
+    gvc_mesh_bounds(mesh, minimum, maximum);
+    for (int k = 0; k < 3; k++) {
+        double farthest = -minimum[k] > maximum[k] ? minimum[k] : maximum[k];
+        if (fabs(farthest) > GREATEST_COORDINATE) {
+            return gvc_fail(error, GVC_ERROR_MESH,
+                            "a vertex has the coordinate %g; a file holds up to %g", farthest,
+                            GREATEST_COORDINATE);
+        }
+    }
+    if (!(diagonal > 0)) return gvc_fail(error, GVC_ERROR_MESH, "all vertices are one point");
+    if (diagonal < LEAST_DIAGONAL) {
+        return gvc_fail(error, GVC_ERROR_MESH,
+                        "the surface is %g across; a file holds surfaces from %g on", diagonal,
+                        LEAST_DIAGONAL);
+    }
+    return GVC_OK;
+}
+
 /* The first eight bytes of SHA-256, as of decoded frames. */
 static gvc_result digest_mesh(const gvc_mesh *mesh, uint8_t digest[8], gvc_error *error) {
     uint8_t full[32];
@@ -70,9 +98,7 @@ gvc_result gvc_load_frame(const gvc_source *source, uint64_t frame, bool weld, g
     if (result == GVC_OK) result = gvc_mesh_topology(*mesh, &topology, error);
     if (result == GVC_OK && !topology.closed_manifold) result = refuse(&topology, error);
     if (result == GVC_OK && topology.component_count != 1) result = refuse(&topology, error);
-    if (result == GVC_OK && !(gvc_mesh_diagonal(*mesh) > 0)) {
-        result = gvc_fail(error, GVC_ERROR_MESH, "all vertices are one point");
-    }
+    if (result == GVC_OK) result = check_size(*mesh, error);
     if (result != GVC_OK) {
         gvc_mesh_destroy(mesh);
         const char *name = source->name ? source->name(source->user, frame) : NULL;

@@ -144,18 +144,14 @@ gvc_result gvc_frame_rms(const gvc_mesh *original, const gvc_mesh *rebuilt, size
         return GVC_OK;
     }
     if (result == GVC_OK) *rms = fmax(distance.rms[0], distance.rms[1]) / distance.diagonal;
-    if (result != GVC_OK && error) *error = failure;
-    return result;
+    return gvc_hand_on(error, result, &failure);
 }
 
 /* An error without bound where no chart without folds is found: another try may do better. */
 static gvc_result allow_folds(gvc_result result, const gvc_error *trouble, double *rms,
                               gvc_error *error) {
     if (result == GVC_OK) return GVC_OK;
-    if (result != GVC_ERROR_MESH) {
-        if (error) *error = *trouble;
-        return result;
-    }
+    if (result != GVC_ERROR_MESH) return gvc_hand_on(error, result, trouble);
     *rms = INFINITY;
     return GVC_OK;
 }

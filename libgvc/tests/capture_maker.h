@@ -227,6 +227,8 @@ static inline bytes encode(capture *frames, const gvc_encode_options *options,
         fail_msg("size %u, crf %g: frame %lld: %s", options->image_size, options->crf,
                  (long long)error.frame, error.message);
     }
+    assert_int_equal(error.code, GVC_OK); /* nothing is left of what was tried in vain */
+    assert_string_equal(error.message, "");
     return file;
 }
 

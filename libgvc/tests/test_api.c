@@ -113,6 +113,19 @@ static void check_refused_mesh(capture *good, gvc_mesh *mesh, const char *count,
     gvc_mesh_destroy(&mesh);
 }
 
+static gvc_mesh *scaled(const gvc_mesh *mesh, double scale) {
+    size_t v = gvc_mesh_vertex_count(mesh);
+    double *position = malloc(3 * v * sizeof *position);
+    gvc_mesh *made;
+    assert_non_null(position);
+    for (size_t i = 0; i < 3 * v; i++) position[i] = scale * gvc_mesh_positions(mesh)[i];
+    assert_int_equal(
+        gvc_mesh_create(position, v, gvc_mesh_faces(mesh), gvc_mesh_face_count(mesh), &made, NULL),
+        GVC_OK);
+    free(position);
+    return made;
+}
+
 static void unsuitable_meshes_are_named_and_counted(void **state) {
     (void)state;
     capture good = three_spheres();
@@ -125,7 +138,45 @@ static void unsuitable_meshes_are_named_and_counted(void **state) {
     check_refused_mesh(&good, edited(sphere, 1, flipped, 1), "3", "orient");
     check_refused_mesh(&good, two_copies(sphere), "2", "components");
     check_refused_mesh(&good, edited(sphere, gvc_mesh_face_count(sphere), NULL, 0), "no", "faces");
+    check_refused_mesh(&good, scaled(sphere, -1e38), "e+37", "coordinate");
+    check_refused_mesh(&good, scaled(sphere, 1e-34), "e-34", "across");
     capture_free(&good);
+}
+
+/* A ball with small tips all over, at the points of a spiral. */
+static gvc_mesh *thorny_ball(unsigned tips) {
+    gvc_mesh *ball = mesh_ellipsoid(1, 1, 1, 24, 16, 0), *made;
+    size_t v = gvc_mesh_vertex_count(ball);
+    double *position = malloc(3 * v * sizeof *position);
+    assert_non_null(position);
+    memcpy(position, gvc_mesh_positions(ball), 3 * v * sizeof *position);
+    for (size_t i = 0; i < v; i++) {
+        double *p = position + 3 * i, nearest = -1;
+        for (unsigned t = 0; t < tips; t++) {
+            double z = (2 * t + 1.0) / tips - 1, r = sqrt(1 - z * z), turn = 2.4 * t;
+            nearest = fmax(nearest, p[0] * r * cos(turn) + p[1] * r * sin(turn) + p[2] * z);
+        }
+        double scale = 1 + 0.2 * exp(40 * (nearest - 1));
+        for (int k = 0; k < 3; k++) p[k] *= scale;
+    }
+    assert_int_equal(
+        gvc_mesh_create(position, v, gvc_mesh_faces(ball), gvc_mesh_face_count(ball), &made, NULL),
+        GVC_OK);
+    free(position);
+    gvc_mesh_destroy(&ball);
+    return made;
+}
+
+/* More cut edges than steps fit round an image of 16 x 16: cuts to all tips are tried in vain. */
+static void cuts_that_do_not_fit_are_done_without(void **state) {
+    (void)state;
+    capture frames = {.count = 1, .mesh = {thorny_ball(20)}};
+    gvc_encode_options options = quick_options(16, 30, 60);
+    options.longest_edge = 0.1;
+    options.best_effort = true;
+    bytes file = encode(&frames, &options, NULL);
+    bytes_free(&file);
+    capture_free(&frames);
 }
 
 static void a_point_is_no_surface(void **state) {
@@ -479,6 +530,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_failing_read_names_its_frame),
         cmocka_unit_test(unsuitable_meshes_are_named_and_counted),
+        cmocka_unit_test(cuts_that_do_not_fit_are_done_without),
         cmocka_unit_test(a_point_is_no_surface),
         cmocka_unit_test(meshes_are_checked_when_made),
         cmocka_unit_test(a_failing_sink_fails_the_encode),

@@ -42,7 +42,7 @@ static gvc_buffer record_of(const gvc_shape *shape, const gvc_shape_frame *frame
 
 static void test_round_trip(void **state) {
     (void)state;
-    gvc_shape shape = shape_of_two(), back, copy;
+    gvc_shape shape = shape_of_two(), back;
     gvc_shape_frame frame = frame_make(false, "frame_0001.obj"), frame_back;
     gvc_buffer record = record_of(&shape, &frame);
     assert_int_equal(read_at(&record, WIDTH, HEIGHT, &back, &frame_back), GVC_OK);
@@ -51,12 +51,9 @@ static void test_round_trip(void **state) {
     assert_false(frame_back.same);
     assert_memory_equal(frame_back.digest, frame.digest, 8);
     assert_string_equal(frame_back.source, "frame_0001.obj");
-    assert_int_equal(gvc_shape_copy(&back, &copy, NULL), GVC_OK);
+    back.chart[0].node[3].feature++;
+    assert_false(gvc_shape_equal(&shape, &back));
     gvc_shape_free(&back);
-    assert_true(gvc_shape_equal(&shape, &copy));
-    copy.chart[0].node[3].feature++;
-    assert_false(gvc_shape_equal(&shape, &copy));
-    gvc_shape_free(&copy);
     gvc_shape_free(&shape);
     gvc_buffer_free(&record);
 }
@@ -153,8 +150,7 @@ static void test_rules(void **state) {
     gvc_error error;
 #define BROKEN(change)                                                                             \
     do {                                                                                           \
-        gvc_shape shape;                                                                           \
-        assert_int_equal(gvc_shape_copy(&good, &shape, NULL), GVC_OK);                             \
+        gvc_shape shape = shape_of_two();                                                          \
         gvc_chart_shape *star = &shape.chart[0], *torus = &shape.chart[1];                         \
         (void)star, (void)torus;                                                                   \
         change;                                                                                    \
