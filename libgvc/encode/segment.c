@@ -292,6 +292,15 @@ static gvc_result choose_start(gvc_segment *segment, const gvc_frame_work *work,
     return result;
 }
 
+/* Fails, before anything is measured, if the border of the image is too short for the cut. */
+static gvc_result check_room(const gvc_side_table *sides, const gvc_cut_graph *graph, uint32_t size,
+                             gvc_error *error) {
+    gvc_side_table resized = {0};
+    gvc_result result = gvc_layout_resize(sides, graph, size, &resized, error);
+    gvc_side_table_free(&resized);
+    return result;
+}
+
 static gvc_result edge_lengths(const gvc_frame_work *work, double **length, gvc_error *error) {
     *length = gvc_alloc(work->graph.edge_count, sizeof **length);
     if (!*length) return gvc_fail_memory(error);
@@ -329,6 +338,7 @@ gvc_result gvc_segment_layout(gvc_segment *segment, const gvc_frame_work *work, 
         result = gvc_layout_make(segment->run, segment->run_count, &work->graph, length, TRIAL_SIZE,
                                  &trial, error);
     }
+    if (result == GVC_OK && size) result = check_room(&trial, &work->graph, size, error);
     if (result == GVC_OK) result = choose_start(segment, work, &trial, threads, error);
     if (result == GVC_OK) {
         gvc_side_table_free(&segment->sides);
