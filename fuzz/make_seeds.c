@@ -41,32 +41,36 @@ static gvc_shape make_star(star_parts *parts) {
     return (gvc_shape){.chart_count = 1, .chart = &parts->chart};
 }
 
+/** record_NAME and, if asked for, changed_NAME. */
+static int save_record(const char *folder, const char *name, const gvc_shape *shape,
+                       const gvc_shape_frame *facts, bool changed) {
+    char plain[32], stem[32];
+    gvc_buffer record = {0};
+    snprintf(plain, sizeof plain, "record_%s", name);
+    snprintf(stem, sizeof stem, "changed_%s", name);
+    int failed = gvc_shape_record_write(shape, facts, &record, NULL) != GVC_OK ||
+                 seed_save(folder, plain, SEED_PLAIN, &record);
+    if (changed) failed |= seed_save_changed(folder, stem, SEED_PLAIN, &record, 1);
+    gvc_buffer_free(&record);
+    return failed;
+}
+
 /** Two stars, the second one higher up in the plane. */
 static int save_two(const char *folder, bool changed) {
     star_parts parts[2];
     gvc_chart_shape chart[2];
-    gvc_shape_frame facts = {.same = false};
-    gvc_buffer record = {0};
+    const gvc_shape_frame facts = {.same = false};
     for (unsigned i = 0; i < 2; i++) chart[i] = *make_star(&parts[i]).chart;
     chart[0].x = chart[0].y = SIZE;
     gvc_shape two = {.segment = 1, .chart_count = 2, .chart = chart};
-    int failed = gvc_shape_record_write(&two, &facts, &record, NULL) != GVC_OK ||
-                 seed_save(folder, "record_two", SEED_PLAIN, &record);
-    if (changed) failed |= seed_save_changed(folder, "changed_two", SEED_PLAIN, &record, 1);
-    gvc_buffer_free(&record);
-    return failed;
+    return save_record(folder, "two", &two, &facts, changed);
 }
 
 static int save_torus(const char *folder, bool changed) {
     torus_parts parts;
     gvc_shape torus = make_torus(&parts, SIZE);
-    gvc_shape_frame facts = {.has_preview = true};
-    gvc_buffer record = {0};
-    int failed = gvc_shape_record_write(&torus, &facts, &record, NULL) != GVC_OK ||
-                 seed_save(folder, "record_torus", SEED_PLAIN, &record);
-    if (changed) failed |= seed_save_changed(folder, "changed_torus", SEED_PLAIN, &record, 1);
-    gvc_buffer_free(&record);
-    return failed;
+    const gvc_shape_frame facts = {.has_preview = true};
+    return save_record(folder, "torus", &torus, &facts, changed);
 }
 
 /** Which tracks of geometry images a file has. */

@@ -105,9 +105,8 @@ static gvc_result check_samples(checker *c, const gvc_fragment_entry *fragment, 
                                            gvc_reader_room(c->reader), buffer, &defect.error);
         if (result == GVC_ERROR_CORRUPT) {
             GVC_TRY(tell(c, &defect, error));
-        } else if (result != GVC_OK) {
-            if (error) *error = defect.error;
-            return result;
+        } else {
+            GVC_TRY(gvc_hand_on(error, result, &defect.error));
         }
     }
     return GVC_OK;

@@ -144,8 +144,7 @@ static void note(gvc_decoder *decoder, const gvc_error *defect) {
 }
 
 static gvc_result tell_defect(const gvc_decoder *decoder, gvc_error *error) {
-    if (error) *error = decoder->defect;
-    return decoder->defect.code;
+    return gvc_hand_on(error, decoder->defect.code, &decoder->defect);
 }
 
 static void rewind_video(gvc_decoder *decoder) {
@@ -159,10 +158,7 @@ static void rewind_video(gvc_decoder *decoder) {
 /* Damage is noted, and decoding goes on; what says nothing about the file is an error. */
 static gvc_result pass_over(gvc_decoder *decoder, gvc_result result, const gvc_error *defect,
                             gvc_error *error) {
-    if (result != GVC_ERROR_CORRUPT) {
-        if (error) *error = *defect;
-        return result;
-    }
+    if (result != GVC_ERROR_CORRUPT) return gvc_hand_on(error, result, defect);
     note(decoder, defect);
     return GVC_OK;
 }
@@ -173,7 +169,7 @@ static gvc_result end_group(gvc_decoder *decoder, gvc_error *error) {
     gvc_error_init(&defect);
     decoder->flushed = true;
     gvc_result result = gvc_h264_decoder_flush(decoder->h264, &defect);
-    return result == GVC_OK ? GVC_OK : pass_over(decoder, result, &defect, error);
+    return pass_over(decoder, result, &defect, error);
 }
 
 /* Feeds the next packet of the fragment, or the end of it. */

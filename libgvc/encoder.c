@@ -348,9 +348,7 @@ static gvc_result chart_one(void *user, size_t index, gvc_error *error) {
     gvc_result result = gvc_chart_make(&c->work[index], &segment->sides, &segment->image_options,
                                        &c->chart[index], &c->error[index]);
     c->unfit[index] = result == GVC_ERROR_MESH;
-    if (result == GVC_OK || c->unfit[index]) return GVC_OK;
-    if (error) *error = c->error[index];
-    return result;
+    return c->unfit[index] ? GVC_OK : gvc_hand_on(error, result, &c->error[index]);
 }
 
 /* Point samples, in the order of the frames: each chart follows the one before. */
@@ -440,8 +438,7 @@ static gvc_result add_images(encoder *e, size_t first, size_t *end, gvc_error *e
     }
     if (good == 0 && e->segment.first_frame == e->batch.work[first].number) {
         /* a new segment is all that could help, and this is one */
-        if (error) *error = context.error[0];
-        return GVC_ERROR_MESH;
+        return gvc_hand_on(error, GVC_ERROR_MESH, &context.error[0]);
     }
     group->count += good;
     for (size_t i = first; i < first + good; i++) gvc_frame_free(&e->batch.work[i]);

@@ -75,10 +75,7 @@ static gvc_result read_track(const gvc_reader *reader, const gvc_fragment_entry 
         gvc_result result = gvc_demux_read(demux, &reader->io, (gvc_track_kind)kind, index,
                                            part->room, data, &defect);
         part->room -= data->size;
-        if (result != GVC_OK && result != GVC_ERROR_CORRUPT) {
-            if (error) *error = defect;
-            return result;
-        }
+        if (result != GVC_ERROR_CORRUPT) GVC_TRY(gvc_hand_on(error, result, &defect));
         uint64_t shown = demux->sample[kind][index].presentation - fragment->first_frame;
         bool good = result == GVC_OK && is_in_place(kind, i, data);
         part->good[kind][i] = good;

@@ -151,9 +151,8 @@ static gvc_result parse_some_head(gvc_parser *parser, uint64_t *end, gvc_error *
     if (is_damage(result) && parser->options->keep_going) {
         result = parse_head_copy(parser, end, &defect);
     }
-    if (result != GVC_OK && error) *error = defect;
     demux->head_size = *end;
-    return result;
+    return gvc_hand_on(error, result, &defect);
 }
 
 /** Lists a defect at `offset` and finds where to go on. If bytes were lost from the fragment
@@ -178,8 +177,7 @@ static gvc_result parse_body(gvc_parser *parser, uint64_t offset, gvc_error *err
         gvc_result result = parse_unit(parser, &next, &defect);
         if (result != GVC_OK) {
             if (!parser->options->keep_going || !is_damage(result)) {
-                if (error) *error = defect;
-                return result;
+                return gvc_hand_on(error, result, &defect);
             }
             GVC_TRY(pass_over(parser, offset, &defect, &next, error));
         }
@@ -204,10 +202,7 @@ static gvc_result check_end(gvc_parser *parser, gvc_error *error) {
                           (unsigned long long)parser->next_frame, (unsigned long long)declared);
     }
     defect.offset = size;
-    if (result != GVC_OK && !parser->options->keep_going) {
-        if (error) *error = defect;
-        return result;
-    }
+    if (!parser->options->keep_going) GVC_TRY(gvc_hand_on(error, result, &defect));
     bool listed = false; /* a stretch that reaches the end tells already */
     if (demux->damage_count) {
         const gvc_damage *last = &demux->damage[demux->damage_count - 1];

@@ -298,8 +298,7 @@ static gvc_result check_frames(gvc_parser *parser, const gvc_box *moof, const tr
         moof, &gap, GVC_ERROR_CORRUPT, "frame %llu follows, expected %llu",
         (unsigned long long)shape->first_frame, (unsigned long long)parser->next_frame);
     if (!parser->options->keep_going || shape->first_frame < parser->next_frame) {
-        if (error) *error = gap;
-        return result;
+        return gvc_hand_on(error, result, &gap);
     }
     /* Frames lost with a damaged stretch that ends here are not listed twice. */
     const gvc_demux *demux = parser->demux;
@@ -350,8 +349,7 @@ static gvc_result make_do(gvc_parser *parser, const gvc_box *moof, const track_r
     bool known = (header == 8 || header == 16) && in_order(parser, run, &next) == NULL;
     if (!parser->options->keep_going || !known ||
         (result != GVC_ERROR_CORRUPT && result != GVC_ERROR_TRUNCATED)) {
-        if (error) *error = *defect;
-        return result;
+        return gvc_hand_on(error, result, defect);
     }
     *mdat = (gvc_box){.type = GVC_BOX_MDAT,
                       .offset = begin,

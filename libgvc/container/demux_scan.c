@@ -49,10 +49,7 @@ gvc_result gvc_scan_for_box(gvc_parser *parser, uint64_t from, uint64_t *found, 
             if (memcmp(bytes, type[0], 4) != 0 && memcmp(bytes, type[1], 4) != 0) continue;
             bool whole;
             gvc_result result = is_whole(parser, from + i, &whole, &ignored);
-            if (result != GVC_OK) {
-                if (error) *error = ignored;
-                return result;
-            }
+            GVC_TRY(gvc_hand_on(error, result, &ignored));
             /* Decoys could make every candidate cost the whole file: give up instead. */
             if (parser->scan_budget == 0) return GVC_OK;
             if (whole) {

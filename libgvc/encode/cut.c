@@ -112,9 +112,7 @@ static gvc_result cut_still(const gvc_cutter *cutter, gvc_frame_work *work, unsi
         gvc_error trouble;
         gvc_error_init(&trouble);
         gvc_result result = try_cut(cutter, work, (cut_choice){extrema, search}, segment, &trouble);
-        if (result != GVC_OK && result != GVC_ERROR_MESH) {
-            return gvc_hand_on(error, result, &trouble);
-        }
+        if (result != GVC_ERROR_MESH) GVC_TRY(gvc_hand_on(error, result, &trouble));
         if (result != GVC_OK || segment->trial_rms > WORTH_A_TIP * least) continue;
         least = segment->trial_rms;
         best = extrema;

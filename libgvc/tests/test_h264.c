@@ -64,6 +64,17 @@ static void encode(const gvc_h264_options *options, const pictures *p, gvc_coded
     assert_int_equal(group->packet_count, p->count);
 }
 
+/* The pictures coded, for tests that do not compare with them. */
+static gvc_coded_group encoded_group(double crf, size_t count) {
+    pictures original;
+    gvc_coded_group group;
+    gvc_h264_options options = default_options(crf);
+    pictures_make(&original, count);
+    encode(&options, &original, &group);
+    pictures_free(&original);
+    return group;
+}
+
 static gvc_h264_decoder *open_decoder(const gvc_coded_group *group) {
     gvc_error error;
     gvc_error_init(&error);
@@ -202,11 +213,7 @@ static void test_short_groups(void **state) {
 
 static void test_reordering(void **state) {
     (void)state;
-    pictures original;
-    gvc_coded_group group;
-    gvc_h264_options options = default_options(10);
-    pictures_make(&original, MAX_COUNT);
-    encode(&options, &original, &group);
+    gvc_coded_group group = encoded_group(10, MAX_COUNT);
     bool seen[MAX_COUNT] = {false}, reordered = false;
     for (size_t i = 0; i < group.packet_count; i++) {
         uint32_t presentation = group.packet[i].presentation;
@@ -218,17 +225,12 @@ static void test_reordering(void **state) {
     assert_int_equal(group.packet[0].presentation, 0);
     assert_true(reordered); /* B pictures are in use */
     gvc_coded_group_free(&group);
-    pictures_free(&original);
 }
 
 /* Samples hold slices only, each with its length before it. */
 static void test_samples_hold_only_slices(void **state) {
     (void)state;
-    pictures original;
-    gvc_coded_group group;
-    gvc_h264_options options = default_options(20);
-    pictures_make(&original, 12);
-    encode(&options, &original, &group);
+    gvc_coded_group group = encoded_group(20, 12);
     for (size_t i = 0; i < group.packet_count; i++) {
         gvc_cursor in = gvc_cursor_make(group.packet[i].data, group.packet[i].size);
         while (gvc_cursor_left(&in) > 0) {
@@ -240,7 +242,6 @@ static void test_samples_hold_only_slices(void **state) {
         assert_false(in.failed);
     }
     gvc_coded_group_free(&group);
-    pictures_free(&original);
 }
 
 static void test_config_is_constant(void **state) {
@@ -355,11 +356,7 @@ static gvc_result decode_replaced(const gvc_coded_group *group, size_t index, ui
 
 static void test_cut_off_slices(void **state) {
     (void)state;
-    pictures original;
-    gvc_coded_group group;
-    gvc_h264_options options = default_options(0);
-    pictures_make(&original, 10);
-    encode(&options, &original, &group);
+    gvc_coded_group group = encoded_group(0, 10);
     for (size_t i = 0; i < group.packet_count; i++) {
         size_t whole = group.packet[i].size;
         /* The arithmetic decoder reads some bytes ahead: less missing is left to the digests. */
@@ -378,18 +375,13 @@ static void test_cut_off_slices(void **state) {
         }
     }
     gvc_coded_group_free(&group);
-    pictures_free(&original);
 }
 
 /* Not every flipped bit can be noticed here (digests do that), but most break the syntax, and none
  * may do worse than give another picture. */
 static void test_flipped_bits(void **state) {
     (void)state;
-    pictures original;
-    gvc_coded_group group;
-    gvc_h264_options options = default_options(12);
-    pictures_make(&original, 6);
-    encode(&options, &original, &group);
+    gvc_coded_group group = encoded_group(12, 6);
     uint32_t random = 1;
     int noticed = 0, total = 0;
     for (size_t i = 0; i < group.packet_count; i++) {
@@ -409,16 +401,11 @@ static void test_flipped_bits(void **state) {
     }
     assert_true(noticed > total / 2);
     gvc_coded_group_free(&group);
-    pictures_free(&original);
 }
 
 static void test_missing_pictures(void **state) {
     (void)state;
-    pictures original;
-    gvc_coded_group group;
-    gvc_h264_options options = default_options(12);
-    pictures_make(&original, 12);
-    encode(&options, &original, &group);
+    gvc_coded_group group = encoded_group(12, 12);
     gvc_packet packets[MAX_COUNT];
     gvc_coded_group shorter = group;
     shorter.packet = packets;
@@ -451,17 +438,12 @@ static void test_missing_pictures(void **state) {
         gvc_h264_decoder_destroy(&decoder);
     }
     gvc_coded_group_free(&group);
-    pictures_free(&original);
 }
 
 /* Parameter sets in a sample could change the pictures' size behind our back. */
 static void test_parameter_sets_in_samples(void **state) {
     (void)state;
-    pictures original;
-    gvc_coded_group group;
-    gvc_h264_options options = default_options(12);
-    pictures_make(&original, 2);
-    encode(&options, &original, &group);
+    gvc_coded_group group = encoded_group(12, 2);
     size_t sps_size = (size_t)group.config[6] << 8 | group.config[7];
     size_t size = 4 + sps_size + group.packet[0].size;
     uint8_t *sample = malloc(size);
@@ -472,17 +454,12 @@ static void test_parameter_sets_in_samples(void **state) {
     assert_int_equal(decode_replaced(&group, 0, sample, size), GVC_ERROR_CORRUPT);
     free(sample);
     gvc_coded_group_free(&group);
-    pictures_free(&original);
 }
 
 /* A length that no whole NAL unit follows, even where the sample ends with it. */
 static void test_units_without_bytes(void **state) {
     (void)state;
-    pictures original;
-    gvc_coded_group group;
-    gvc_h264_options options = default_options(12);
-    pictures_make(&original, 1);
-    encode(&options, &original, &group);
+    gvc_coded_group group = encoded_group(12, 1);
     size_t size = group.packet[0].size;
     uint8_t *sample = malloc(size + 5);
     assert_non_null(sample);
@@ -494,17 +471,12 @@ static void test_units_without_bytes(void **state) {
     assert_int_equal(decode_replaced(&group, 0, sample, size + 5), GVC_ERROR_CORRUPT);
     free(sample);
     gvc_coded_group_free(&group);
-    pictures_free(&original);
 }
 
 /* One sample is one picture: what follows another slice must go on with its picture. */
 static void test_two_pictures_in_a_sample(void **state) {
     (void)state;
-    pictures original;
-    gvc_coded_group group;
-    gvc_h264_options options = default_options(12);
-    pictures_make(&original, 8);
-    encode(&options, &original, &group);
+    gvc_coded_group group = encoded_group(12, 8);
     for (size_t i = 0; i < group.packet_count; i++) {
         for (size_t k = i; k < group.packet_count && k < i + 2; k++) {
             const gvc_packet *one = &group.packet[i], *two = &group.packet[k];
@@ -519,17 +491,11 @@ static void test_two_pictures_in_a_sample(void **state) {
         }
     }
     gvc_coded_group_free(&group);
-    pictures_free(&original);
 }
 
 static void test_damaged_config(void **state) {
     (void)state;
-    pictures original;
-    gvc_coded_group group;
-    gvc_h264_options options = default_options(12);
-    pictures_make(&original, 1);
-    encode(&options, &original, &group);
-    pictures_free(&original);
+    gvc_coded_group group = encoded_group(12, 1);
     gvc_h264_decoder *decoder;
     gvc_error error;
     gvc_error_init(&error);
