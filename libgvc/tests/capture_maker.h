@@ -38,6 +38,20 @@ static inline gvc_mesh *mesh_copy(const gvc_mesh *mesh) {
     return copy;
 }
 
+/** The mesh with each coordinate times `scale`, plus `offset`. */
+static inline gvc_mesh *mesh_moved(const gvc_mesh *mesh, double scale, double offset) {
+    size_t count = 3 * gvc_mesh_vertex_count(mesh);
+    double *position = malloc(count * sizeof *position);
+    gvc_mesh *moved;
+    assert_non_null(position);
+    for (size_t i = 0; i < count; i++) position[i] = scale * gvc_mesh_positions(mesh)[i] + offset;
+    assert_int_equal(gvc_mesh_create(position, count / 3, gvc_mesh_faces(mesh),
+                                     gvc_mesh_face_count(mesh), &moved, NULL),
+                     GVC_OK);
+    free(position);
+    return moved;
+}
+
 static inline gvc_result capture_read(void *user, uint64_t frame, gvc_mesh **mesh,
                                       gvc_error *error) {
     const gvc_mesh *kept = ((const capture *)user)->mesh[frame];

@@ -113,19 +113,6 @@ static void check_refused_mesh(capture *good, gvc_mesh *mesh, const char *count,
     gvc_mesh_destroy(&mesh);
 }
 
-static gvc_mesh *scaled(const gvc_mesh *mesh, double scale) {
-    size_t v = gvc_mesh_vertex_count(mesh);
-    double *position = malloc(3 * v * sizeof *position);
-    gvc_mesh *made;
-    assert_non_null(position);
-    for (size_t i = 0; i < 3 * v; i++) position[i] = scale * gvc_mesh_positions(mesh)[i];
-    assert_int_equal(
-        gvc_mesh_create(position, v, gvc_mesh_faces(mesh), gvc_mesh_face_count(mesh), &made, NULL),
-        GVC_OK);
-    free(position);
-    return made;
-}
-
 static void unsuitable_meshes_are_named_and_counted(void **state) {
     (void)state;
     capture good = three_spheres();
@@ -138,8 +125,8 @@ static void unsuitable_meshes_are_named_and_counted(void **state) {
     check_refused_mesh(&good, edited(sphere, 1, flipped, 1), "3", "orient");
     check_refused_mesh(&good, two_copies(sphere), "2", "components");
     check_refused_mesh(&good, edited(sphere, gvc_mesh_face_count(sphere), NULL, 0), "no", "faces");
-    check_refused_mesh(&good, scaled(sphere, -1e38), "e+37", "coordinate");
-    check_refused_mesh(&good, scaled(sphere, 1e-34), "e-34", "across");
+    check_refused_mesh(&good, mesh_moved(sphere, -1e38, 0), "e+37", "coordinate");
+    check_refused_mesh(&good, mesh_moved(sphere, 1e-34, 0), "e-34", "across");
     capture_free(&good);
 }
 
@@ -182,15 +169,7 @@ static void cuts_that_do_not_fit_are_done_without(void **state) {
 static void a_point_is_no_surface(void **state) {
     (void)state;
     capture good = three_spheres();
-    const gvc_mesh *sphere = good.mesh[0];
-    size_t count = gvc_mesh_vertex_count(sphere);
-    double *position = calloc(3 * count, sizeof *position);
-    gvc_mesh *mesh;
-    assert_non_null(position);
-    assert_int_equal(gvc_mesh_create(position, count, gvc_mesh_faces(sphere),
-                                     gvc_mesh_face_count(sphere), &mesh, NULL),
-                     GVC_OK);
-    free(position);
+    gvc_mesh *mesh = mesh_moved(good.mesh[0], 0, 0);
     bad_source bad = {.good = &good, .frame = 2, .mesh = mesh};
     (void)refuse(&bad, GVC_ERROR_MESH);
     gvc_mesh_destroy(&mesh);

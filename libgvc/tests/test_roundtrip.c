@@ -98,17 +98,8 @@ static void place_and_unit_do_not_matter(void **state) {
     for (size_t s = 0; s < 2; s++) {
         capture figure = {0}, frames = {.count = 1};
         capture_add_figure(&figure, 0, 1, 4, 1);
-        size_t count = 3 * gvc_mesh_vertex_count(figure.mesh[0]);
-        double *position = malloc(count * sizeof *position);
-        assert_non_null(position);
-        for (size_t i = 0; i < count; i++)
-            position[i] = scale[s] * gvc_mesh_positions(figure.mesh[0])[i] + offset[s];
-        assert_int_equal(gvc_mesh_create(position, count / 3, gvc_mesh_faces(figure.mesh[0]),
-                                         gvc_mesh_face_count(figure.mesh[0]), &frames.mesh[0],
-                                         NULL),
-                         GVC_OK);
+        frames.mesh[0] = mesh_moved(figure.mesh[0], scale[s], offset[s]);
         check_settings(&frames, settings, 1);
-        free(position);
         capture_free(&figure);
         capture_free(&frames);
     }
